@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/motion.h"
@@ -91,6 +92,45 @@ BENCHMARK_CAPTURE(linkage_sweep, four_bar_forces, "four_bar", forces_too)->Arg(3
 BENCHMARK_CAPTURE(linkage_sweep, jansen_position, "jansen_leg", places_only)->Arg(360);
 BENCHMARK_CAPTURE(linkage_sweep, jansen_rates, "jansen_leg", rates_too)->Arg(360);
 BENCHMARK_CAPTURE(linkage_sweep, jansen_forces, "jansen_leg", forces_too)->Arg(360);
+
+// A turn of an overhead cam with finger and valve in 720 positions, with all forces and that of the contact.
+void linkage_cam_forces(benchmark::State& state) {
+  constexpr int count = 720;
+  constexpr double degree = pi / 180;
+  Linkage l = grounded({{"O", {0, 0}}, {"P", {-0.021, -0.03}}, {"G", {0.02, -0.034}}});
+  add_drawn(l, "cam", {{"O", {0, 0}}});
+  add_drawn(l, "finger", {{"P", {-0.021, -0.03}}, {"R", {0, -0.026}}, {"T", {0.02, -0.03}}});
+  add_drawn(l, "valve", {{"T", {0.02, -0.03}}});
+  add_pin(l, "shaft", "ground.O", "cam.O");
+  add_pin(l, "pivot", "ground.P", "finger.P");
+  add_slide(l, "guide", "ground.G", "valve.T", -pi / 2, -pi / 2);
+  add_slot(l, "tip", "valve.T", "finger.T");
+  for (std::size_t b = 1; b < l.bodies.size(); ++b) l.bodies[b].mass = BodyMass{0.1, 1e-5, 0};
+  l.cams.push_back({.name = "lobe",
+                    .turns = 0,
+                    .moves = 2,
+                    .contact = {2, 1},
+                    .roller_radius = 0.009,
+                    .base_radius = 0.017,
+                    .programme = {.segments = {{CamLaw::dwell, 220 * degree, 0, {}},
+                                               {CamLaw::polynomial_4567, 70 * degree, 0.01, {}},
+                                               {CamLaw::polynomial_4567, 70 * degree, 0, {}}}}});
+  add_drive(l, "shaft");
+  const LinkagePlan plan = plan_linkage(l).plan;
+  LinkageMotion motion(plan);
+  LinkageForces found;
+  std::vector<InputMotion> inputs{{0, 300, 0}};
+  for (auto _ : state)
+    for (int i = 0; i < count; ++i) {
+      inputs[0].value = full_turn * i / count;
+      solve_motion(plan, inputs, motion);
+      solve_forces(l, plan, motion, 0, inputs[0].value, found);
+      if (motion.status != Status::done) state.SkipWithError("a position failed");
+      benchmark::DoNotOptimize(found.cams.data());
+    }
+  state.SetItemsProcessed(state.iterations() * count);
+}
+BENCHMARK(linkage_cam_forces)->Unit(benchmark::kMillisecond);
 
 // Limits, change points and circuits over a full turn, in all modes.
 void linkage_limits(benchmark::State& state, const char* name) {

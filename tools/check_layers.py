@@ -33,7 +33,7 @@ FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS
 # files beside the folders; above all stand STUDIES and the DOORS, which are the only ones that use the study module.
 BASE, STUDIES = "", "studies"
 FOLDERS = {
-    "planar": [[BASE], ["linkage", "serial_arm", "chains", "drawing", "cam"], ["four_bar", "sketch"],
+    "planar": [[BASE], ["cam"], ["linkage", "serial_arm", "chains", "drawing"], ["four_bar", "sketch"],
                ["simulation", "path", "balancing", "dyads"], ["function", "exact", "type_synthesis"]],
     "suspension": [["corner"], ["wheel", "indirect"], ["compliance", "dependent"], ["direct"]],
     "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],

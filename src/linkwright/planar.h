@@ -13,6 +13,7 @@
 /// Planar mechanisms.
 
 #include "linkwright/planar/balancing/four_bar.h"
+#include "linkwright/planar/cam/programme.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/four_bar/sweep.h"
 #include "linkwright/planar/link_mass.h"
@@ -25,4 +26,3 @@
 #include "linkwright/planar/path/task.h"
 #include "linkwright/planar/serial_arm/serial_arm.h"
 #include "linkwright/planar/simulation/simulation.h"
-#include "linkwright/planar/sweep_input.h"

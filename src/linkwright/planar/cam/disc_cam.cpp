@@ -7,6 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/minimum.h"
+#include "linkwright/planar/cam/detail/contour.h"
 
 namespace linkwright::planar {
 namespace {
@@ -18,69 +19,30 @@ constexpr Number i{0, 1};
 
 Number direction(double angle) { return std::polar(1.0, angle); }
 
-// The centre of the roller in the fixed frame, its derivatives by the angle of the cam, and the direction in
-// which the follower rises.
-struct RollerMotion {
-  Number place, rate, acceleration, rise;
-  double length;  // travel of the centre by unit of the programme
-};
-
-RollerMotion roller_motion(const DiscCam& cam, const Motion& m) {
+RollerPath roller_path(const DiscCam& cam, const Motion& m) {
   const double base = base_position(cam);
   if (cam.motion == FollowerMotion::translating)
-    return {cam.offset + i * (base + m.value), i * m.rate, i * m.acceleration, i, 1};
+    return {cam.offset + i * (base + m.value), i * m.rate, i * m.acceleration, i};
   const Number arm = cam.arm * direction(pi - base - m.value);
-  return {cam.pivot + arm, -i * arm * m.rate, -i * arm * m.acceleration - arm * m.rate * m.rate,
-          -i * arm / cam.arm, cam.arm};
+  return {cam.pivot + arm, -i * arm * m.rate, -i * arm * m.acceleration - arm * m.rate * m.rate, -i * arm};
 }
 
-CamState roller_state(const DiscCam& cam, const Motion& m, double angle) {
-  const double sense = cam.sense();
-  const RollerMotion b = roller_motion(cam, m);
-  // First and second derivative of the pitch curve, turned into the fixed frame.
-  const Number first = b.rate - i * sense * b.place,
-               second = b.acceleration - 2.0 * i * sense * b.rate - b.place;
-  const double size = std::abs(first);
-  const Number normal = i * sense * first / size, turned = direction(-sense * angle);
-  CamState out;
-  const double lean = std::arg(std::conj(b.rise) * normal);
-  out.pressure_angle = sense * lean;
-  out.pitch_curvature = -sense * std::imag(std::conj(first) * second) / (size * size * size);
-  out.profile_radius = 1 / out.pitch_curvature - cam.roller();
-  out.pitch = math::vec(b.place * turned);
-  out.profile = math::vec((b.place - cam.roller() * normal) * turned);
-  out.normal = math::vec(normal * turned);
-  out.contact = nan;
-  out.lever = b.length * std::cos(lean);
-  return out;
-}
-
-// A flat face by the support function of the cam: h(chi), the distance of the face from the centre over the
-// direction of its normal in the cam.
 CamState flat_state(const DiscCam& cam, const Motion& m, double angle) {
   const double sense = cam.sense();
   CamState out;
-  Number normal = i, point;
   if (cam.motion == FollowerMotion::translating) {
-    const double height = cam.base_radius + m.value;
-    point = sense * m.rate + i * height;
-    out.profile_radius = height + m.acceleration;
+    out = face_contour({{pi / 2, 0, 0}, {cam.base_radius + m.value, m.rate, m.acceleration}}, sense, angle);
     out.contact = sense * m.rate;
-  } else {
-    const double psi = base_position(cam) + m.value, s = std::sin(psi), c = std::cos(psi);
-    const double turning = 1 + sense * m.rate, share = m.rate / turning;
-    normal = Number(s, c);
-    point = (cam.pivot * s + cam.face_offset) * normal - sense * cam.pivot * c * share * (i * normal);
-    out.profile_radius = cam.face_offset + cam.pivot * s * (1 - share * share) +
-                         cam.pivot * c * m.acceleration / (turning * turning * turning);
-    out.contact = cam.pivot * c / turning;
-    out.lever = out.contact;
-    out.pressure_angle = sense * std::atan2(cam.face_offset, out.contact);
+    return out;
   }
-  const Number turned = direction(-sense * angle);
-  out.pitch_curvature = nan;
-  out.profile = out.pitch = math::vec(point * turned);
-  out.normal = math::vec(normal * turned);
+  const double psi = base_position(cam) + m.value, s = cam.pivot * std::sin(psi),
+               c = cam.pivot * std::cos(psi);
+  out = face_contour({{pi / 2 - psi, -m.rate, -m.acceleration},
+                      {s + cam.face_offset, c * m.rate, c * m.acceleration - s * m.rate * m.rate}},
+                     sense, angle);
+  out.contact = c / (1 + sense * m.rate);
+  out.lever = out.contact;
+  out.pressure_angle = sense * std::atan2(cam.face_offset, out.contact);
   return out;
 }
 
@@ -89,10 +51,8 @@ std::optional<CamExtreme> radius_of(const CamExtreme& curvature) {
   return CamExtreme{1 / curvature.value, curvature.angle};
 }
 
-void find_pressure(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out) {
-  const auto pressure = [&cam](const Motion& m, double angle) {
-    return cam_state(cam, m, angle).pressure_angle;
-  };
+void find_pressure(CamContour contour, const ProgrammeCurve& curve, CamExtremes& out) {
+  const auto pressure = [&](const Motion& m, double angle) { return contour(m, angle).pressure_angle; };
   out.greatest_pressure = greatest_over(curve, pressure);
   out.least_pressure = least_over(curve, pressure);
   for (const double side : {1.0, -1.0}) {
@@ -104,14 +64,11 @@ void find_pressure(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes&
   }
 }
 
-void find_radii(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out) {
-  const auto curvature = [&cam](const Motion& m, double angle) {
-    return cam_state(cam, m, angle).pitch_curvature;
-  };
+void find_radii(CamContour contour, double roller, const ProgrammeCurve& curve, CamExtremes& out) {
+  const auto curvature = [&](const Motion& m, double angle) { return contour(m, angle).pitch_curvature; };
   out.least_convex_pitch = radius_of(greatest_over(curve, curvature));
   const CamExtreme hollow = least_over(curve, curvature);
   out.least_concave_pitch = radius_of({-hollow.value, hollow.angle});
-  const double roller = cam.roller();
   if (out.least_convex_pitch)
     out.least_convex_profile =
         CamExtreme{out.least_convex_pitch->value - roller, out.least_convex_pitch->angle};
@@ -123,11 +80,9 @@ void find_radii(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& ou
         curve, [&](const Motion& m, double angle) { return 1 - roller * curvature(m, angle); });
 }
 
-void find_flat(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out) {
-  const auto radius = [&cam](const Motion& m, double angle) {
-    return cam_state(cam, m, angle).profile_radius;
-  };
-  const auto contact = [&cam](const Motion& m, double angle) { return cam_state(cam, m, angle).contact; };
+void find_flat(CamContour contour, const ProgrammeCurve& curve, CamExtremes& out) {
+  const auto radius = [&](const Motion& m, double angle) { return contour(m, angle).profile_radius; };
+  const auto contact = [&](const Motion& m, double angle) { return contour(m, angle).contact; };
   out.least_convex_profile = least_over(curve, radius);
   out.least_contact = least_over(curve, contact);
   out.greatest_contact = greatest_over(curve, contact);
@@ -137,8 +92,9 @@ void find_flat(const DiscCam& cam, const ProgrammeCurve& curve, CamExtremes& out
 // Distance of places of the pitch curve from the whole profile, which ought to be the radius of the roller.
 class GougeSearch {
  public:
-  GougeSearch(const DiscCam& cam, const ProgrammeCurve& curve, const std::vector<CamRange>& undercut)
-      : cam_(cam), curve_(curve), undercut_(undercut) {
+  GougeSearch(CamContour contour, double roller, double size, const ProgrammeCurve& curve,
+              const std::vector<CamRange>& undercut)
+      : contour_(contour), roller_(roller), size_(size), curve_(curve), undercut_(undercut) {
     const double last = curve.breaks().back();
     for (int k = 0; k <= count; ++k) angles_.push_back(last * k / count);
     for (const double angle : angles_) states_.push_back(state(angle));
@@ -148,7 +104,7 @@ class GougeSearch {
 
   std::optional<CamGouge> deepest() const {
     std::optional<CamGouge> worst;
-    const double limit = cam_.roller() + step_;
+    const double limit = roller_ + step_;
     for (std::size_t a = 0; a < states_.size(); ++a) {
       if (is_undercut(angles_[a])) continue;
       for (std::size_t b = 1; b + 1 < states_.size(); ++b) {
@@ -157,8 +113,8 @@ class GougeSearch {
         const math::Minimum least = math::minimum_about(
             [&](double angle) { return norm(states_[a].pitch - state(angle).profile); }, angles_[b - 1],
             angles_[b], angles_[b + 1], {.absolute = 1e-9, .relative = 0, .sections = 60});
-        const double depth = cam_.roller() - least.value;
-        if (depth < 1e-9 * cam_.prime_radius() || is_undercut(least.at)) continue;
+        const double depth = roller_ - least.value;
+        if (depth < 1e-9 * size_ || is_undercut(least.at)) continue;
         if (!worst || depth > worst->depth) worst = CamGouge{angles_[a], least.at, depth};
       }
     }
@@ -168,7 +124,7 @@ class GougeSearch {
  private:
   static constexpr int count = 720;
 
-  CamState state(double angle) const { return cam_state(cam_, curve_(angle), angle); }
+  CamState state(double angle) const { return contour_(curve_(angle), angle); }
   double distance(std::size_t a, std::size_t b) const { return norm(states_[a].pitch - states_[b].profile); }
   bool is_undercut(double angle) const {
     const double turn = curve_.breaks().back();
@@ -177,7 +133,8 @@ class GougeSearch {
     });
   }
 
-  const DiscCam& cam_;
+  CamContour contour_;
+  double roller_, size_;
   const ProgrammeCurve& curve_;
   const std::vector<CamRange>& undercut_;
   std::vector<double> angles_;
@@ -238,21 +195,63 @@ std::optional<CamProblem> problem(const DiscCam& cam, const ProgrammeCurve& curv
   return std::nullopt;
 }
 
+CamState roller_contour(const RollerPath& path, double roller, double sense, double angle) {
+  // First and second derivative of the pitch curve, turned into the fixed frame.
+  const Number first = path.rate - i * sense * path.place,
+               second = path.acceleration - 2.0 * i * sense * path.rate - path.place;
+  const double size = std::abs(first);
+  const Number normal = i * sense * first / size, turned = direction(-sense * angle);
+  CamState out;
+  const double lean = std::arg(std::conj(path.lever) * normal);
+  out.pressure_angle = sense * lean;
+  out.pitch_curvature = -sense * std::imag(std::conj(first) * second) / (size * size * size);
+  out.profile_radius = 1 / out.pitch_curvature - roller;
+  out.pitch = math::vec(path.place * turned);
+  out.profile = math::vec((path.place - roller * normal) * turned);
+  out.normal = math::vec(normal * turned);
+  out.contact = nan;
+  out.lever = std::abs(path.lever) * std::cos(lean);
+  return out;
+}
+
+// By the support function of the cam: h(chi), the distance of the face from the centre over the direction of
+// its normal in the cam.
+CamState face_contour(const FacePath& path, double sense, double angle) {
+  const auto& [normal_angle, height] = path;
+  const double turning = normal_angle.rate - sense, slope = height.rate / turning;
+  const Number normal = direction(normal_angle.value), point = height.value * normal + slope * (i * normal);
+  const Number turned = direction(-sense * angle);
+  CamState out;
+  out.profile_radius =
+      height.value + (height.acceleration - slope * normal_angle.acceleration) / (turning * turning);
+  out.pitch_curvature = nan;
+  out.profile = out.pitch = math::vec(point * turned);
+  out.normal = math::vec(normal * turned);
+  return out;
+}
+
 CamState cam_state(const DiscCam& cam, const Motion& motion, double angle) {
-  return cam.has_pitch_curve() ? roller_state(cam, motion, angle) : flat_state(cam, motion, angle);
+  if (!cam.has_pitch_curve()) return flat_state(cam, motion, angle);
+  return roller_contour(roller_path(cam, motion), cam.roller(), cam.sense(), angle);
+}
+
+CamExtremes contour_extremes(CamContour contour, double roller, bool is_flat, double size,
+                             const ProgrammeCurve& curve) {
+  CamExtremes out;
+  find_pressure(contour, curve, out);
+  if (is_flat) {
+    find_flat(contour, curve, out);
+    return out;
+  }
+  find_radii(contour, roller, curve, out);
+  if (roller > 0) out.gouge = GougeSearch(contour, roller, size, curve, out.undercut).deepest();
+  return out;
 }
 
 CamExtremes cam_extremes(const DiscCam& cam, const ProgrammeCurve& curve) {
   LINKWRIGHT_REQUIRE(!problem(cam, curve), "there is no such cam");
-  CamExtremes out;
-  find_pressure(cam, curve, out);
-  if (!cam.has_pitch_curve()) {
-    find_flat(cam, curve, out);
-    return out;
-  }
-  find_radii(cam, curve, out);
-  if (cam.roller() > 0) out.gouge = GougeSearch(cam, curve, out.undercut).deepest();
-  return out;
+  return contour_extremes([&cam](const Motion& m, double angle) { return cam_state(cam, m, angle); },
+                          cam.roller(), !cam.has_pitch_curve(), cam.prime_radius(), curve);
 }
 
 math::Vec2 cutter_centre(const CamState& state, double radius) {

@@ -29,18 +29,6 @@ constexpr std::array<EnumName<FollowerMotion>, 2> names(FollowerMotion) {
            {FollowerMotion::oscillating, "oscillating", "about a pivot"}}};
 }
 
-/// The part of a follower that touches the cam.
-enum class FollowerFace {
-  roller,  ///< a roller
-  knife,   ///< an edge, as a roller without radius
-  flat     ///< a straight face
-};
-constexpr std::array<EnumName<FollowerFace>, 3> names(FollowerFace) {
-  return {{{FollowerFace::roller, "roller", "a roller"},
-           {FollowerFace::knife, "knife", "an edge, as a roller without radius"},
-           {FollowerFace::flat, "flat", "a straight face"}}};
-}
-
 /// The dimensions of a disc cam and its follower (m).
 struct DiscCam {
   FollowerMotion motion = FollowerMotion::translating;  ///< motion of the follower

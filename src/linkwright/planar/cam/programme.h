@@ -17,6 +17,27 @@
 /// is a lift (m) or an angle (rad) of the follower; its derivatives are by radians of the cam.
 namespace linkwright::planar {
 
+/// A sense of rotation.
+enum class Rotation {
+  counterclockwise,  ///< counter-clockwise
+  clockwise          ///< clockwise
+};
+constexpr std::array<EnumName<Rotation>, 2> names(Rotation) {
+  return {{{Rotation::counterclockwise, "counterclockwise"}, {Rotation::clockwise, "clockwise"}}};
+}
+
+/// The part of a follower that touches the cam.
+enum class FollowerFace {
+  roller,  ///< a roller
+  knife,   ///< an edge, as a roller without radius
+  flat     ///< a straight face
+};
+constexpr std::array<EnumName<FollowerFace>, 3> names(FollowerFace) {
+  return {{{FollowerFace::roller, "roller", "a roller"},
+           {FollowerFace::knife, "knife", "an edge, as a roller without radius"},
+           {FollowerFace::flat, "flat", "a straight face"}}};
+}
+
 /// The law of a segment between its end values.
 enum class CamLaw {
   dwell,               ///< the follower rests

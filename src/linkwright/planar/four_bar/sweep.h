@@ -10,7 +10,7 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/sweep_input.h"
+#include "linkwright/planar/linkage/plan.h"
 
 namespace linkwright::planar {
 

@@ -234,6 +234,15 @@ void add_reaction_columns(std::vector<LinkageColumn>& out, const Linkage& l, con
     if (joint.type == JointType::prismatic || joint.type == JointType::fixed || joint.type == JointType::gear)
       add_rows(column_rows::joint_moments);
   }
+  for (std::size_t c = 0; c < l.cams.size(); ++c) {
+    const std::string key = identifier(l.cams[c].name) + "_", &name = l.cams[c].name;
+    const std::string pair = fmt::format("{} on {}", l.bodies[at(plan.cams[c].cam_body)].name,
+                                         l.bodies[at(l.cams[c].contact.body)].name);
+    add_column(out, {key + "contact", fmt::format("{} contact force, {}", name, pair), Dimension::force},
+               [c](const LinkageInstant& i) { return i.forces->cams[c].force; });
+    add_column(out, {key + "pressure_angle", name + " pressure angle", Dimension::angle},
+               [c](const LinkageInstant& i) { return i.forces->cams[c].pressure_angle; });
+  }
   for (std::size_t s = 0; s < plan.strands.size(); ++s) {
     const PlanStrand& strand = plan.strands[s];
     const std::string &belt = l.belts[at(strand.belt)].name, &first = l.bodies[at(strand.first)].name,

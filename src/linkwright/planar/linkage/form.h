@@ -151,6 +151,34 @@ struct StrutForm {
   std::optional<GasSpringForm> gas;
   std::optional<CylinderForm> cylinder;
 };
+/// A value of a follower: of one that slides or of one that turns.
+struct FollowerValueForm {
+  std::optional<double> length, angle;
+};
+struct CamSegmentForm {
+  CamLaw law = CamLaw::dwell;
+  double over = 0;
+  FollowerValueForm to;
+  FollowerValueForm start_rate, start_acceleration, start_jerk;
+  FollowerValueForm end_rate, end_acceleration, end_jerk;
+};
+struct CamTableForm {
+  std::vector<double> angles;
+  std::optional<std::vector<double>> lengths, follower_angles;
+};
+struct CamMemberForm {
+  std::string name, turns, moves;
+  FollowerFace follower = FollowerFace::roller;
+  std::string contact;
+  std::optional<double> roller_radius, base_radius, face_direction;
+  CamForm form = CamForm::outside;
+  Rotation sense = Rotation::counterclockwise;
+  double phase = 0;
+  FollowerValueForm start;
+  bool sector = false;
+  std::vector<CamSegmentForm> segments;
+  std::optional<CamTableForm> table;
+};
 struct LinkageForm {
   /// The points of all bodies are given where they are in one drawn position, in the global frame: body
   /// frames coincide with it there, and the drawing gives the assembly modes.
@@ -165,6 +193,7 @@ struct LinkageForm {
   std::vector<TorqueForm> torques;
   std::vector<BeltForm> belts;
   std::vector<StrutForm> struts;
+  std::vector<CamMemberForm> cams;
 };
 
 /// A problem of one entry of a form: list "joint", its index, the key in it.
@@ -466,6 +495,75 @@ void fields(Visitor&& visit, StrutForm& s) {
         s.cylinder);
 }
 template <class Visitor>
+void follower_value(Visitor& visit, std::string_view key, std::string_view summary, FollowerValueForm& v) {
+  const Field length = field::length(key, summary), angle = field::angle(key, summary);
+  told_apart_by_unit(visit, {length, angle});
+  visit(length, v.length);
+  visit(angle, v.angle);
+}
+template <class Visitor>
+void fields(Visitor&& visit, CamSegmentForm& s) {
+  visit(field::entry("law", "law of the motion in the segment").required(), s.law);
+  visit(field::angle("over", "angle of the cam in the segment").positive().required(), s.over);
+  follower_value(visit, "to", "value at the end, from the base circle; a dwell takes none", s.to);
+  follower_value(visit, "start_rate", "polynomial: first derivative at the start, by radian of the cam",
+                 s.start_rate);
+  follower_value(visit, "start_acceleration",
+                 "polynomial: second derivative at the start, by radian of the cam squared",
+                 s.start_acceleration);
+  follower_value(visit, "start_jerk", "polynomial: third derivative at the start, by radian of the cam cubed",
+                 s.start_jerk);
+  follower_value(visit, "end_rate", "polynomial: first derivative at the end", s.end_rate);
+  follower_value(visit, "end_acceleration", "polynomial: second derivative at the end", s.end_acceleration);
+  follower_value(visit, "end_jerk", "polynomial: third derivative at the end", s.end_jerk);
+}
+template <class Visitor>
+void fields(Visitor&& visit, CamTableForm& t) {
+  visit(field::angle("angles", "angles of the cam, from 0 to a full turn").required(), t.angles);
+  constexpr Field lengths = field::length("values", "values of the programme at these angles"),
+                  angles = field::angle("values", "values of the programme at these angles");
+  told_apart_by_unit(visit, {lengths, angles});
+  visit(lengths, t.lengths);
+  visit(angles, t.follower_angles);
+}
+template <class Visitor>
+void fields(Visitor&& visit, CamMemberForm& c) {
+  visit(field::entry("name", "its name; columns use it").required(), c.name);
+  visit(field::entry("turns", "joint on which the cam turns, over whose angle its programme goes").required(),
+        c.turns);
+  visit(field::entry("moves", "joint of the follower, whose coordinate the programme gives").required(),
+        c.moves);
+  visit(field::entry("follower", "part of the follower that touches the cam"), c.follower);
+  visit(field::entry("contact",
+                     "centre of the roller, edge, or a point of the flat face, on the body that touches the "
+                     "cam, \"body.point\"")
+            .required(),
+        c.contact);
+  visit(field::length("roller_radius", "of a roller").positive(), c.roller_radius);
+  visit(
+      field::length("base_radius",
+                    "distance of the profile from the centre of the cam where the programme is 0; if absent "
+                    "as a drawn linkage shows the follower")
+          .positive(),
+      c.base_radius);
+  visit(field::angle("face_direction", "flat face: its direction in the frame of its body; if absent 0"),
+        c.face_direction);
+  visit(field::entry("form", "contour of the cam"), c.form);
+  visit(field::entry("sense",
+                     "sense of the angle over which the programme goes, from the body that carries "
+                     "the cam"),
+        c.sense);
+  visit(field::angle("phase", "angle of the programme where that of the joint is 0"), c.phase);
+  follower_value(visit, "start",
+                 "value of the programme at its start, from the base circle, positive as the coordinate of "
+                 "the moved joint; if absent 0",
+                 c.start);
+  visit(field::entry("sector", "true if the cam swings back and forth over its segments instead of turning"),
+        c.sector);
+  visit(field::entry("segment", "segments of the programme, in their order"), c.segments);
+  visit(field::entry("table", "programme as a smooth curve through rows, instead of segments"), c.table);
+}
+template <class Visitor>
 void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("drawn", "points are given in one drawn position, in the global frame"), l.drawn);
   visit(field::length("moment_centre", "shaking moments are about this place of the ground"),
@@ -479,6 +577,7 @@ void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("torque", "torques on bodies"), l.torques);
   visit(field::entry("belt", "belts, chains and ropes"), l.belts);
   visit(field::entry("strut", "forces between two points: gas springs, cylinders, tables"), l.struts);
+  visit(field::entry("cam", "cams with their followers"), l.cams);
 }
 
 }  // namespace linkwright::planar

@@ -362,6 +362,13 @@ JointReaction pair_force(const PlanPair& pair, const LinkageMotion& motion, doub
   }
   if (const auto* strand = std::get_if<StrandPair>(&pair.kind))
     return strand_force(*strand, motion, multiplier);
+  // What the programme of a cam exerts on the moved joint: its contact gives it another form.
+  if (const auto* cam = std::get_if<CamPair>(&pair.kind))
+    return {motion.parts[at(cam->moved_second.part)].origin,
+            {0, 0},
+            multiplier * (cam->slide ? 1 : cam->scale),
+            nan,
+            nan};
   const RackPair& rack = std::get<RackPair>(pair.kind);
   const math::Vec2 along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction),
                    left = perpendicular(along);

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+
+#include "linkwright/planar/cam/detail/finding_words.h"
 
 namespace linkwright::planar {
 namespace {
@@ -25,6 +28,7 @@ class Checker {
     for (const LinkageBody& b : l_.bodies) body(b);
     for (const LinkageJoint& j : l_.joints) joint(j);
     for (const Belt& b : l_.belts) belt(b);
+    for (const LinkageCam& c : l_.cams) cam(c);
     drives();
     loads();
     if (!finite(l_.gravity)) error("environment.gravity", "is not finite", {});
@@ -63,6 +67,7 @@ class Checker {
     twice(l_.torques, "torque");
     twice(l_.struts, "strut");
     twice(l_.belts, "belt");
+    twice(l_.cams, "cam");
     for (const LinkageBody& b : l_.bodies) twice(b.points, ("body." + b.name + ".point").c_str());
   }
   void body(const LinkageBody& b) {
@@ -176,6 +181,37 @@ class Checker {
       error(key, "refers to a body or point that does not exist", {});
     if (b.tension && !(*b.tension >= 0 && std::isfinite(*b.tension)))
       error(key, "its tension must be finite and not negative", {});
+  }
+  bool has_joint(int joint) const { return joint >= 0 && joint < static_cast<int>(l_.joints.size()); }
+  void cam(const LinkageCam& c) {
+    const std::string key = "cam." + c.name;
+    if (!has_joint(c.turns) || !has_joint(c.moves) || !has(c.contact))
+      return error(key, "refers to a joint or point that does not exist", {});
+    const LinkageJoint &turns = l_.joints[static_cast<std::size_t>(c.turns)],
+                       &moves = l_.joints[static_cast<std::size_t>(c.moves)];
+    if (turns.type != JointType::revolute)
+      error(key, fmt::format("joint '{}', on which the cam turns, is not a pin", turns.name),
+            "name the pin of the cam");
+    if (moves.type != JointType::revolute && moves.type != JointType::prismatic)
+      error(key, fmt::format("joint '{}', which the cam moves, is neither a pin nor a slide", moves.name),
+            "name the pin or the slide of the follower");
+    if (c.turns == c.moves)
+      error(key, fmt::format("joint '{}' would move itself", turns.name),
+            "`turns` is the pin of the cam, `moves` the joint of its follower");
+    if (c.face == FollowerFace::roller && !(c.roller_radius > 0 && std::isfinite(c.roller_radius)))
+      error(key, fmt::format("the roller of cam '{}' has no radius", c.name),
+            "give it, or write follower = \"knife\" for an edge");
+    if (c.form == CamForm::groove && c.face != FollowerFace::roller)
+      error(key, fmt::format("a {} follower does not run in a groove", name_of(c.face)), "take a roller");
+    if (c.base_radius && !(*c.base_radius > 0 && std::isfinite(*c.base_radius)))
+      error(key, fmt::format("the base circle has the radius {}", *c.base_radius), "give a positive radius");
+    if (!std::isfinite(c.phase + c.face_direction)) error(key, "its angles are not finite", {});
+    const bool rotary = moves.type == JointType::revolute;
+    for (const ProgrammeFinding& f : findings(c.programme)) {
+      if (f.severity != ProgrammeSeverity::error) continue;
+      const FindingWords words = words_for(f, rotary);
+      error(key, words.message, words.hint);
+    }
   }
   void drives() {
     std::set<int> seen;
@@ -347,7 +383,13 @@ double size_of(const Linkage& linkage) {
       used[static_cast<std::size_t>(end.body)].push_back(
           linkage.bodies[static_cast<std::size_t>(end.body)].points[static_cast<std::size_t>(end.point)].at);
   }
+  for (const LinkageCam& c : linkage.cams)
+    used[static_cast<std::size_t>(c.contact.body)].push_back(
+        linkage.bodies[static_cast<std::size_t>(c.contact.body)]
+            .points[static_cast<std::size_t>(c.contact.point)]
+            .at);
   double size = 0;
+  for (const LinkageCam& c : linkage.cams) size = std::max(size, c.base_radius.value_or(0) + c.roller());
   for (const auto& points : used)
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) size = std::max(size, std::abs(points[i] - points[k]));
@@ -360,6 +402,7 @@ std::string first_rolling_pair(const Linkage& linkage) {
     if (j.type == JointType::gear && j.curve) return fmt::format("gear '{}' with a ratio curve", j.name);
     if (j.type == JointType::gear && j.geneva) return fmt::format("Geneva drive '{}'", j.name);
   }
+  if (!linkage.cams.empty()) return fmt::format("cam '{}'", linkage.cams[0].name);
   return linkage.belts.empty() ? std::string() : fmt::format("belt '{}'", linkage.belts[0].name);
 }
 

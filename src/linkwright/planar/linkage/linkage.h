@@ -12,6 +12,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/vector2.h"
+#include "linkwright/planar/cam/programme.h"
 
 namespace linkwright::planar {
 
@@ -359,6 +360,42 @@ struct Belt {
   int carrier = -1;
 };
 
+/// The contour of a cam.
+enum class CamForm {
+  outside,  ///< a disc, on which the follower is pressed
+  groove    ///< a slot with two flanks between which a roller runs
+};
+constexpr std::array<EnumName<CamForm>, 2> names(CamForm) {
+  return {{{CamForm::outside, "outside", "a disc, on which the follower is pressed"},
+           {CamForm::groove, "groove", "a slot with two flanks between which a roller runs"}}};
+}
+
+/// A cam as a member of a linkage: the coordinate of one joint, from where the follower touches the base
+/// circle, is the programme of the angle of another. One body, which both joints have, carries cam and
+/// follower; the contour of the cam follows from its programme and from the motion of the follower.
+struct LinkageCam {
+  std::string name;  ///< unique among the cams
+  int turns = -1;    ///< joint on which the cam turns, revolute
+  int moves = -1;    ///< joint whose coordinate the programme gives, revolute or prismatic
+  /// Centre of the roller, edge, or a point of the flat face, on the body that touches the cam.
+  BodyPoint contact;
+  FollowerFace face = FollowerFace::roller;  ///< part of the follower that touches the cam
+  double roller_radius = 0;                  ///< of a roller, m, > 0
+  /// Distance of the contour from the centre where the programme is 0 (m); nothing: as the start poses show
+  /// the follower, which is then where its programme is 0.
+  std::optional<double> base_radius;
+  double face_direction = 0;        ///< direction of a flat face in the frame of its body (rad)
+  CamForm form = CamForm::outside;  ///< contour of the cam
+  bool is_clockwise = false;  ///< the programme goes over the clockwise angle of the cam from its carrier
+  double phase = 0;           ///< angle of the programme where that of the joint is 0 (rad)
+  CamProgramme programme;     ///< coordinate of the moved joint from the base circle
+
+  /// @returns +1 for a programme over the counter-clockwise angle, -1 for one over the clockwise angle
+  double sense() const { return is_clockwise ? -1 : 1; }
+  /// @returns the radius of the roller; 0 of an edge and of a flat face
+  double roller() const { return face == FollowerFace::roller ? roller_radius : 0; }
+};
+
 /// Any planar linkage: plain data. bodies[0] is the ground. Make indices with `body_index` and `point_index`.
 struct Linkage {
   std::vector<LinkageBody> bodies;   ///< the ground first
@@ -372,6 +409,7 @@ struct Linkage {
   std::vector<BodyTorque> torques;             ///< torques on bodies
   std::vector<Strut> struts;                   ///< forces between two points
   std::vector<Belt> belts;                     ///< belts, chains and ropes
+  std::vector<LinkageCam> cams;                ///< cams with their followers
   std::complex<double> gravity{0, -9.81};      ///< m/s2, acceleration of free fall
   std::complex<double> moment_centre;          ///< shaking moments are about this place, global (m)
 };
@@ -404,7 +442,7 @@ int joint_index(const Linkage& linkage, std::string_view name);
 ///   points of the ground (m); 1 if there is none
 double size_of(const Linkage& linkage);
 
-/// The first rack, belt or gear of wheels that are not circular, for computations that do not take them.
+/// The first rack, belt, cam or gear of wheels that are not circular, for computations that do not take them.
 ///
 /// @param linkage the linkage
 /// @returns its kind and name, as "rack 'teeth'"; empty if there is none

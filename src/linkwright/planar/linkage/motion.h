@@ -222,6 +222,20 @@ struct AppliedLoad {
   double torque = 0;       ///< N m
 };
 
+/// The contact of a cam at an instant. Of a flat face it moves along the face.
+struct CamContact {
+  math::Vec2 point{0, 0};   ///< place of the contact on the cam, global, m
+  math::Vec2 normal{0, 0};  ///< outward normal of the cam, global, unit vector
+  /// Force of the cam on its follower along the normal (N); negative where the cam would have to pull, which
+  /// only the other flank of a groove does.
+  double force = 0;
+  /// From the way in which the cam pushes the follower to the normal, rad, as CamState has it.
+  double pressure_angle = 0;
+  /// Effort on the moved joint by unit of force: cosine of the pressure angle, or m; negative where the cam
+  /// pushes against the sense in which the coordinate of the joint counts.
+  double lever = 0;
+};
+
 /// Joint forces of a linkage at one instant; use one again and again.
 struct LinkageForces {
   /// Status of the motion; self_locking when friction blocks it; limit_reached when a gas spring is beyond
@@ -231,7 +245,8 @@ struct LinkageForces {
   /// One a strand of the plan: `tangential` is its tension (N), negative where it would have to push; the
   /// force is that on the second wheel, and acts on the first one along the same line.
   std::vector<JointReaction> strands;
-  std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
+  std::vector<CamContact> cams;  ///< one a cam of the linkage
+  std::vector<double> drives;    ///< one an input: torque (N m) or force (N) of the first body on the second
   std::vector<AppliedLoad> loads;  ///< springs, loads, struts, friction as they acted; no weight
   /// Force of the mechanism, and of bodies welded to the ground, on the ground (N), weight included.
   math::Vec2 shaking_force{0, 0};
@@ -249,6 +264,7 @@ struct LinkageForces {
       group_joints;                        ///< memory: forces in the joints of a group
   std::vector<double> group_drives;        ///< memory: drives of a group
   std::vector<JointReaction> group_gears;  ///< memory: gears, racks and strands of a group
+  std::vector<double> cam_efforts;         ///< memory: what the programmes of cams would exert
   std::vector<double> preload;             ///< memory: tension that all strands of a belt have in common
 };
 

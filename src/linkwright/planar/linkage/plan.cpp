@@ -39,6 +39,7 @@ int mobility(const Linkage& linkage) {
     freedoms -= j.type == JointType::fixed                                        ? 3
                 : j.type == JointType::revolute || j.type == JointType::prismatic ? 2
                                                                                   : 1;
+  freedoms -= static_cast<int>(linkage.cams.size());
   for (const Belt& b : linkage.belts)
     freedoms -= static_cast<int>(b.wheels.size()) - (b.closed && b.carrier < 0 ? 0 : 1);
   return freedoms;

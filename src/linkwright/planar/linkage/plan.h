@@ -130,11 +130,33 @@ struct CurvePair {
   double scale = 1;  ///< length (m) by which the equation is multiplied
 };
 
+/// A cam and its follower. The coordinate of the moved joint less `offset` is the programme of the angle of
+/// the cam.
+struct CamPair {
+  PartPoint base,            ///< centre of the cam on the part that carries it, and the x axis of that body
+      cam,                   ///< centre and x axis on the cam
+      moved_first,           ///< side of the first body of the moved joint
+      moved_second;          ///< side of its second body
+  PartPoint contact;         ///< centre of the roller, edge or point of the face, and direction of the face
+  int cam_body = 0;          ///< body of the cam, index in the linkage
+  int joint = -1;            ///< the moved joint, index in the linkage
+  bool slide = false;        ///< it is a slide, else a pin
+  double sense = 1;          ///< +1 for a programme over the counter-clockwise angle of the cam, else -1
+  double phase = 0;          ///< angle of the programme where that of the cam from its carrier is 0, rad
+  double offset = 0;         ///< coordinate of the moved joint where the programme is 0, rad or m
+  double scale = 1;          ///< length (m) by which the equation of a pin is multiplied
+  bool is_flat = false;      ///< the follower is a flat face
+  double roller = 0;         ///< radius of the roller, 0 of an edge and of a flat face, m
+  bool is_sector = false;    ///< the cam stops at the ends of its programme
+  ProgrammeCurve programme;  ///< m or rad
+};
+
 /// A pair that gives one equation between parts, other than a gear of constant ratio.
 struct PlanPair {
-  int joint = -1;                                      ///< index in the linkage, -1 of a strand
-  int strand = -1;                                     ///< index into LinkagePlan::strands, -1 of a joint
-  std::variant<RackPair, StrandPair, CurvePair> kind;  ///< the pair with its dimensions
+  int joint = -1;   ///< index in the linkage, -1 of a strand or cam
+  int strand = -1;  ///< index into LinkagePlan::strands, -1 of others
+  std::variant<RackPair, StrandPair, CurvePair, CamPair> kind;  ///< the pair with its dimensions
+  int cam = -1;                                                 ///< index into Linkage::cams, -1 of others
 };
 
 /// Parts on pins, each of a part that is placed before it, whose angles follow from gears and drives.
@@ -144,7 +166,8 @@ struct GearTrain {
 /// @returns the properties of a train of gears
 constexpr GroupTraits traits_of(const GearTrain&) { return {.name = "gear", .has_matrix = true}; }
 
-/// A part on one pin or slide that a pair moves: a pinion on a rack, a rack, a wheel that a strand turns.
+/// A part on one pin or slide that a pair moves: a pinion on a rack, a rack, a wheel that a strand turns, the
+/// follower of a cam.
 struct Follower {};
 /// @returns the properties of a follower
 constexpr GroupTraits traits_of(const Follower&) { return {.name = "follower", .has_matrix = true}; }
@@ -332,6 +355,7 @@ struct LinkagePlan {
   std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
   std::vector<int> redundant_gears;                ///< joints that repeat what other gears say
   std::vector<PlanStrand> strands;                 ///< those of all belts, in their order
+  std::vector<CamPair> cams;                       ///< one a cam of the linkage
   std::vector<bool> rotary;                        ///< one an input: whether its joint turns
   double size = 1;                                 ///< characteristic length, m
   /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.
@@ -357,7 +381,7 @@ std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOn
                                   std::size_t parts);
 
 /// Degrees of freedom by count (Chebyshev-Gruebler): 3 a moving body, less 3 a weld, 2 a pin or slide, 1 a
-/// pin in a slot, a gear, a rack or a strand, but for the last strand of a closed belt on a carrier.
+/// pin in a slot, a gear, a rack, a cam or a strand, but for the last strand of a closed belt on a carrier.
 ///
 /// @param linkage the linkage
 /// @returns the count; redundant joints make it less than the freedoms
@@ -390,6 +414,14 @@ struct InputMotion {
   double value = 0,      ///< rad or m
       rate = 0,          ///< rad/s or m/s
       acceleration = 0;  ///< rad/s2 or m/s2
+};
+
+/// One input over the samples of a sweep.
+struct SweepInput {
+  /// Values, one a sample (rad or m).
+  std::span<const double> value,
+      rate,          ///< rates (rad/s or m/s): one a sample, or one for all, or none for zero
+      acceleration;  ///< accelerations, likewise
 };
 
 }  // namespace linkwright::planar

@@ -94,9 +94,25 @@ bool moves_alone(const PlanDraft& d, const PartPair& pair, int part, const PartJ
     return at_centre(rack->pinion) || (joint.slide && rack->rack.part == part);
   if (const auto* curve = std::get_if<CurvePair>(&pair.pair.kind))
     return !joint.slide && curve->second == part && curve->first != part && curve->carrier != part;
+  if (const auto* cam = std::get_if<CamPair>(&pair.pair.kind))
+    return joint.joint == cam->joint && joint.slide == cam->slide;
   const auto& strand = std::get<StrandPair>(pair.pair.kind);
   return (at_centre(strand.first) && strand.first_radius != 0) ||
          (at_centre(strand.second) && strand.second_radius != 0);
+}
+
+// The free joint of a part to a known one on which a pair moves it; null where there is none.
+PartJoint* moved_joint(PlanDraft& d, const PartPair& pair, int part) {
+  if (!std::holds_alternative<CamPair>(pair.pair.kind)) {
+    PartJoint* joint = to_known(d, part);
+    return joint && moves_alone(d, pair, part, *joint) ? joint : nullptr;
+  }
+  // The follower may have other joints to known parts than the one that its cam moves.
+  for (PartJoint& joint : d.joints)
+    if (!joint.used && joint.input < 0 && (joint.first.part == part || joint.second.part == part) &&
+        moves_alone(d, pair, part, joint))
+      return &joint;
+  return nullptr;
 }
 
 }  // namespace
@@ -265,8 +281,8 @@ bool find_follower(PlanDraft& d) {
         std::any_of(pair.parts.begin(), pair.parts.end(), [&](int p) { return p != *unknown && !known(p); }))
       continue;
     const int part = *unknown;
-    PartJoint* joint = to_known(d, part);
-    if (!joint || !moves_alone(d, pair, part, *joint)) continue;
+    PartJoint* joint = moved_joint(d, pair, part);
+    if (!joint) continue;
     joint->used = pair.used = true;
     const int base = joint->first.part == part ? joint->second.part : joint->first.part;
     place_group(
@@ -281,11 +297,12 @@ void check_left_pairs(PlanDraft& d) {
     if (pair.used ||
         !std::all_of(pair.parts.begin(), pair.parts.end(), [&](int p) { return d.known[at(p)]; }))
       continue;
-    const char* what = pair.pair.joint < 0                                ? "the rope"
+    const char* what = pair.pair.cam >= 0                                 ? "the cam"
+                       : pair.pair.joint < 0                              ? "the rope"
                        : d.model(pair.pair.joint).type == JointType::rack ? "the rack"
                        : d.model(pair.pair.joint).geneva                  ? "the Geneva drive"
                                                                           : "the gear";
-    if (pair.pair.joint < 0 && d.linkage.belts[at(d.plan().strands[at(pair.pair.strand)].belt)].closed)
+    if (pair.pair.strand >= 0 && d.linkage.belts[at(d.plan().strands[at(pair.pair.strand)].belt)].closed)
       d.error(
           pair.key,
           fmt::format("belt '{}' cannot stay tight: the distances of its wheels change, and nothing takes "

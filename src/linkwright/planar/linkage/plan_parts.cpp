@@ -146,6 +146,7 @@ void join_parts(PlanDraft& d) {
   for (int k = 0; k < static_cast<int>(d.linkage.joints.size()); ++k)
     if (d.model(k).type == JointType::gear && d.model(k).geneva) add_geneva(d, k);
   add_belts(d);
+  if (d.good()) add_cams(d);
   for (int k : d.linkage.driven) d.plan().rotary.push_back(d.model(k).type == JointType::revolute);
 }
 

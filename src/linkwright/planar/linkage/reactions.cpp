@@ -92,27 +92,15 @@ void divide_shared_pins(const LinkagePlan& plan, LinkageForces& f) {
   }
 }
 
-// One pass over the groups, last first, with the loads as they are.
-void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
-  const math::Vec2 gravity = math::vec(linkage.gravity);
-  for (std::size_t p = 0; p < plan.parts.size(); ++p)
-    f.needed[p] = needed_wrench(plan.masses[p], motion.parts[p], gravity);
-  for (const AppliedLoad& load : f.loads) {
-    const int part = plan.bodies[at(load.body)].part;
-    Wrench<double>& n = f.needed[at(part)];
-    n = n - shifted(Wrench<double>{load.force, load.torque}, load.point - motion.parts[at(part)].origin);
-  }
-  for (const PlanStrand& strand : plan.strands) {
-    if (!strand.preloaded) continue;
-    const StrandLine line = strand_line(strand.run, motion.parts);
-    const math::Vec2 pull = f.preload[at(strand.belt)] * line.along;
-    const auto take = [&](int part, const math::Vec2& force, const math::Vec2& point) {
-      Wrench<double>& n = f.needed[at(part)];
-      n = n - shifted(Wrench<double>{force, 0}, point - motion.parts[at(part)].origin);
-    };
-    take(strand.run.first.part, pull, line.first);
-    take(strand.run.second.part, -pull, line.second);
-  }
+// A load on a part makes it need less.
+void take(const LinkageMotion& motion, LinkageForces& f, int part, const Wrench<double>& load,
+          const math::Vec2& point) {
+  Wrench<double>& n = f.needed[at(part)];
+  n = n - shifted(load, point - motion.parts[at(part)].origin);
+}
+
+// One pass over the groups, last first, with what the parts need.
+void pass_groups(const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
   for (std::size_t k = plan.groups.size(); k-- > 0;) {
     const Group& g = plan.groups[k];
     const PlanJoint& j = g.joints[0];
@@ -122,10 +110,16 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
       const auto keep = [&](int joint, int strand, const JointReaction& load) {
         (joint >= 0 ? f.joints[at(joint)] : f.strands[at(strand)]) = load;
       };
+      const auto keep_pair = [&](const PlanPair& pair, const JointReaction& load) {
+        if (pair.cam >= 0)
+          f.cam_efforts[at(pair.cam)] = load.moment;
+        else
+          keep(pair.joint, pair.strand, load);
+      };
       for (std::size_t i = 0; i < g.gears.size(); ++i)
         keep(g.gears[i].joint, g.gears[i].strand, f.group_gears[i]);
       for (std::size_t i = 0; i < g.pairs.size(); ++i)
-        keep(g.pairs[i].joint, g.pairs[i].strand, f.group_gears[g.gears.size() + i]);
+        keep_pair(g.pairs[i], f.group_gears[g.gears.size() + i]);
       for (std::size_t i = 0; i < g.joints.size(); ++i) {
         const PlanJoint& here = g.joints[i];
         report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
@@ -150,6 +144,97 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
         [&](const Triangle&) { by_matrix(); }, [&](const GeneralGroup&) { by_matrix(); });
   }
   divide_shared_pins(plan, f);
+}
+
+// A pass with masses, the loads as they are, preloads and the contacts of cams.
+void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
+  const math::Vec2 gravity = math::vec(linkage.gravity);
+  for (std::size_t p = 0; p < plan.parts.size(); ++p)
+    f.needed[p] = needed_wrench(plan.masses[p], motion.parts[p], gravity);
+  for (const AppliedLoad& load : f.loads)
+    take(motion, f, plan.bodies[at(load.body)].part, {load.force, load.torque}, load.point);
+  for (const PlanStrand& strand : plan.strands) {
+    if (!strand.preloaded) continue;
+    const StrandLine line = strand_line(strand.run, motion.parts);
+    const math::Vec2 pull = f.preload[at(strand.belt)] * line.along;
+    take(motion, f, strand.run.first.part, {pull, 0}, line.first);
+    take(motion, f, strand.run.second.part, {-pull, 0}, line.second);
+  }
+  for (std::size_t k = 0; k < plan.cams.size(); ++k) {
+    const CamContact& contact = f.cams[k];
+    if (contact.force == 0) continue;
+    const math::Vec2 push = contact.force * contact.normal;
+    take(motion, f, plan.cams[k].contact.part, {push, 0}, contact.point);
+    take(motion, f, plan.cams[k].cam.part, {-push, 0}, contact.point);
+  }
+  pass_groups(plan, motion, f);
+}
+
+// The effort on the joint that a cam moves by a load on its follower alone.
+double effort_of(const LinkagePlan& plan, std::size_t cam, const LinkageMotion& motion,
+                 const Wrench<double>& load, const math::Vec2& point, LinkageForces& f) {
+  std::fill(f.needed.begin(), f.needed.end(), Wrench<double>{{0, 0}, 0});
+  take(motion, f, plan.cams[cam].contact.part, load, point);
+  pass_groups(plan, motion, f);
+  return -f.cam_efforts[cam];
+}
+
+// How the contact part of a cam's follower moves by unit of the coordinate of its joint, at its point.
+struct Travel {
+  math::Vec2 velocity{0, 0};
+  double turning = 0;
+};
+Travel travel_of(const LinkagePlan& plan, std::size_t cam, const LinkageMotion& motion,
+                 const math::Vec2& point, LinkageForces& f) {
+  const CamPair& c = plan.cams[cam];
+  const bool is_second = c.contact.part == c.moved_second.part;
+  const double side = is_second ? 1 : -1;
+  // The moved body, if the other body of its joint carries the cam.
+  if ((is_second ? c.moved_first : c.moved_second).part == c.base.part &&
+      (is_second || c.contact.part == c.moved_first.part)) {
+    const PartState<double>& base = motion.parts[at(c.moved_first.part)];
+    if (c.slide) return {side * rotate(base.direction, c.moved_first.direction), 0};
+    return {side * perpendicular(point - point_on(base, c.moved_first.at)), side};
+  }
+  // Else by virtual work: a load on it does the work of its effort at the joint.
+  const auto effort = [&](const Wrench<double>& load) {
+    return effort_of(plan, cam, motion, load, point, f);
+  };
+  return {{effort({{1, 0}, 0}), effort({{0, 1}, 0})}, c.is_flat ? effort({{0, 0}, 1}) : 0};
+}
+
+// Where the cams touch their followers, without their forces: the normal is that of the path of the follower
+// in the frame of the cam.
+void find_contacts(const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
+  f.cams.assign(plan.cams.size(), {});
+  f.cam_efforts.resize(plan.cams.size());
+  for (std::size_t k = 0; k < plan.cams.size(); ++k) {
+    const CamPair& c = plan.cams[k];
+    CamContact& contact = f.cams[k];
+    const PartState<double>& body = motion.parts[at(c.contact.part)];
+    const double angle = cam_angle(c, [&](int part) { return angle_of(motion.parts[at(part)].direction); });
+    const double rate = programme_at(c, angle).rate;
+    const math::Vec2 point = point_on(body, c.contact.at),
+                     way = point - point_on(motion.parts[at(c.base.part)], c.base.at);
+    const Travel travel = travel_of(plan, k, motion, point, f);
+    // By radian of the cam, seen from it.
+    const math::Vec2 path = rate * travel.velocity - c.sense * perpendicular(way);
+    math::Vec2 moved = travel.velocity;
+    if (c.is_flat) {
+      const math::Vec2 along = rotate(body.direction, c.contact.direction), across = perpendicular(along);
+      contact.normal = dot(across, way) < 0 ? -across : across;
+      const double place = -dot(across, path) / (rate * travel.turning - c.sense);
+      contact.point = point + place * along;
+      moved = moved + travel.turning * place * across;
+    } else {
+      contact.normal = c.sense / norm(path) * perpendicular(path);
+      contact.point = point - c.roller * contact.normal;
+    }
+    contact.lever = dot(contact.normal, moved);
+    // The programme may count against the sense in which the cam pushes.
+    if (contact.lever < 0) moved = -moved;
+    contact.pressure_angle = c.sense * angle_of(rotate_inverse(moved, contact.normal));
+  }
 }
 
 // The strands of a belt whose mean tension is given: those without equation take the mean of the others with
@@ -220,6 +305,11 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
     take(plan.strands[s].second, {r.force, 0}, r.point);
     take(plan.strands[s].first, {-r.force, 0}, r.point);
   }
+  for (std::size_t c = 0; c < l.cams.size(); ++c) {
+    const math::Vec2 push = f.cams[c].force * f.cams[c].normal;
+    take(l.cams[c].contact.body, {push, 0}, f.cams[c].point);
+    take(plan.cams[c].cam_body, {-push, 0}, f.cams[c].point);
+  }
   for (std::size_t k = 0; k < l.joints.size(); ++k) {
     const LinkageJoint& weld = l.joints[k];
     if (weld.type != JointType::fixed) continue;
@@ -286,6 +376,7 @@ void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& moti
 void nothing(LinkageForces& f) {
   for (JointReaction& r : f.joints) r = {{nan, nan}, {nan, nan}, nan};
   for (JointReaction& r : f.strands) r = {{nan, nan}, {nan, nan}, nan, nan, nan};
+  for (CamContact& c : f.cams) c = {{nan, nan}, {nan, nan}, nan, nan, nan};
   std::fill(f.drives.begin(), f.drives.end(), nan);
   f.shaking_force = {nan, nan};
   f.shaking_moment = f.shaking_moment_with_drive = nan;
@@ -360,6 +451,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   f.group_gears.resize(gears);
   for (const int j : plan.redundant_gears) f.joints[at(j)] = {{nan, nan}, {0, 0}, nan, nan, nan};
   f.strands.assign(plan.strands.size(), {});
+  f.cams.assign(plan.cams.size(), {});
   f.preload.assign(l.belts.size(), 0.0);
   f.loads.clear();
   f.iterations = 0;
@@ -369,12 +461,21 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
     return nothing(f);
   }
   applied_loads(l, plan, motion, time, input, f.loads);
-  const auto balance = [&] {
+  find_contacts(plan, motion, f);
+  const auto pass_with_contacts = [&] {
+    for (CamContact& contact : f.cams) contact.force = 0;
     pass(plan, l, motion, f);
-    if (find_preloads(l, plan, f)) pass(plan, l, motion, f);
+    if (f.cams.empty()) return;
+    // A contact does the work of the programme that it takes the place of.
+    for (std::size_t k = 0; k < f.cams.size(); ++k) f.cams[k].force = f.cam_efforts[k] / f.cams[k].lever;
+    pass(plan, l, motion, f);
+  };
+  const auto balance = [&] {
+    pass_with_contacts();
+    if (find_preloads(l, plan, f)) pass_with_contacts();
     if (!answer) return;
     answer(f.drives);
-    pass(plan, l, motion, f);
+    pass_with_contacts();
   };
   balance();
   if (std::any_of(l.joints.begin(), l.joints.end(), loses_power)) {

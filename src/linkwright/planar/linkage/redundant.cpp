@@ -40,7 +40,7 @@ ConstraintRow along(int joint, const LinkageJoint& j, std::span<const PartState<
 std::optional<std::vector<ConstraintRow>> rows_of_joints(const Linkage& l, double size,
                                                          std::span<const PartState<double>> bodies,
                                                          std::span<const int> as_pins) {
-  if (!l.belts.empty()) return std::nullopt;
+  if (!l.belts.empty() || !l.cams.empty()) return std::nullopt;
   std::vector<ConstraintRow> out;
   for (int k = 0; k < static_cast<int>(l.joints.size()); ++k) {
     const LinkageJoint& j = l.joints[at(k)];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -188,11 +189,17 @@ bool periodic(const LinkagePlan& plan, int input) {
   if (!plan.rotary[at(input)]) return false;
   return std::all_of(plan.groups.begin(), plan.groups.end(), [&](const Group& g) {
     // A pinion that the input turns on and on moves its rack on.
-    for (const PlanPair& pair : g.pairs)
-      for (const int part : parts_of(pair))
-        if (const auto& turned = plan.turned[at(part)];
-            part != 0 && turned && turned->shares.empty() && turned->gains[at(input)] != 0)
-          return false;
+    for (const PlanPair& pair : g.pairs) {
+      const auto* cam = std::get_if<CamPair>(&pair.kind);
+      for (const int part : parts_of(pair)) {
+        const auto& turned = plan.turned[at(part)];
+        if (part == 0 || !turned || !turned->shares.empty()) continue;
+        const double gain = turned->gains[at(input)];
+        // A cam that comes round comes back.
+        const bool comes_back = cam && !cam->is_sector && std::abs(gain - std::round(gain)) < 1e-12;
+        if (gain != 0 && !comes_back) return false;
+      }
+    }
     const GearTrain* train = g.as<GearTrain>();
     return !train || std::all_of(train->angles.begin(), train->angles.end(), [&](const DrivenAngle& a) {
       return a.turns == 1 && std::abs(a.gains[at(input)] - std::round(a.gains[at(input)])) < 1e-12;

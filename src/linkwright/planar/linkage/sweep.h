@@ -11,7 +11,6 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/linkage/motion.h"
-#include "linkwright/planar/sweep_input.h"
 
 namespace linkwright::planar {
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/planar/cam/disc_cam.h"
@@ -34,6 +35,20 @@ study::Kind cam_synthesis_kind();
 study::Result run_cam(const CamStudy& study, const study::Common& common);
 /// The smallest cam within its limits, and its geometry and forces.
 study::Result run_cam_synthesis(const CamStudy& study, const study::Common& common);
+
+/// What the columns of a contour depend on.
+struct FollowerKind {
+  bool rotary = false;        ///< it turns
+  double roller = 0;          ///< radius of its roller, 0 without
+  bool is_flat = false;       ///< it has a flat face
+  double size = 1;            ///< radii far beyond this are those of straight parts
+  std::string contact_label;  ///< of contacts along a face; empty: those of a disc cam
+};
+/// Programme and contour over the angle of a cam, a row for each angle.
+Table contour_table(std::string name, const FollowerKind& follower, const std::vector<double>& angles,
+                    const std::vector<math::Motion>& motions, const std::vector<CamState>& states);
+/// The key of the column of the programme, or of its derivative: "lift_m", "swing_rate".
+std::string follower_key(bool rotary, std::string_view suffix);
 
 /// The keys of base radius and offset in the tables of a study.
 void write_cam_size(const DiscCam& cam, Value& mechanism);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/cam/detail/finding_words.h"
 #include "linkwright/planar/studies/cam.h"
 #include "linkwright/planar/studies/linkage.h"
-#include "linkwright/planar/studies/swing.h"
 #include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -121,9 +121,6 @@ Field table_values(bool rotary) {
 constexpr Field speed_field = field::speed_angular("speed", "of the cam").not_negative().required();
 
 std::string degrees_text(double angle) { return fmt::format("{:.6g}°", math::degrees(angle)); }
-std::string value_text(double value, bool rotary) {
-  return rotary ? degrees_text(value) : fmt::format("{:.6g} mm", value * 1e3);
-}
 
 // Keys that the chosen follower needs, and those that it does not have.
 void check_dimensions(study::ObjectReader& reader, const CamMechanism& m, bool has_offset) {
@@ -204,42 +201,8 @@ bool read_table(study::ObjectReader& reader, bool rotary, CamProgramme& programm
 
 void tell_finding(study::ObjectReader& reader, const ProgrammeFinding& f, bool rotary) {
   if (f.severity != ProgrammeSeverity::error) return;
-  switch (f.issue) {
-    case ProgrammeIssue::no_motion:
-      reader.error("",
-                   "the programme is not a motion: a table needs increasing angles from 0, a polynomial "
-                   "conditions that it can meet",
-                   "write [[mechanism.segment]] with law, over_deg and to_mm or to_deg");
-      break;
-    case ProgrammeIssue::segments_do_not_fill:
-      reader.error("segment",
-                   fmt::format("the programme covers {} of the turn of {}", degrees_text(2 * pi - f.size),
-                               degrees_text(2 * pi)),
-                   f.size > 0 ? fmt::format("add {}, or write sector = true", degrees_text(f.size))
-                              : fmt::format("take {} away", degrees_text(-f.size)));
-      break;
-    case ProgrammeIssue::does_not_close:
-      reader.error("segment",
-                   fmt::format("the programme ends {} {} its start", value_text(std::abs(f.size), rotary),
-                               f.size > 0 ? "above" : "below"),
-                   "end the last segment at the start value, or write sector = true");
-      break;
-    case ProgrammeIssue::jump_of_value:
-      reader.error("segment",
-                   fmt::format("the follower would jump by {} at {}", value_text(std::abs(f.size), rotary),
-                               degrees_text(f.angle)),
-                   "let each segment begin where the one before it ends");
-      break;
-    case ProgrammeIssue::jump_of_rate:
-      reader.error(
-          "segment",
-          fmt::format("the speed of the follower would jump by {} per radian of the cam at {}",
-                      value_text(std::abs(f.size), rotary), degrees_text(f.angle)),
-          "take laws that start and end at rest, such as cycloidal, or a polynomial with these rates");
-      break;
-    default:
-      break;
-  }
+  const FindingWords words = words_for(f, rotary);
+  reader.error(words.key, words.message, words.hint);
 }
 
 void tell_problem(study::ObjectReader& reader, const CamStudy& s, const CamProblem& p) {

@@ -47,53 +47,23 @@ class CamReport {
  private:
   Measured value_text(double value) const { return study::angle_or_length(value, rotary_, 5); }
   Measured effort_text(double value) const { return study::torque_or_force(value, rotary_, 5); }
-  std::string motion_key(std::string_view suffix) const {
-    return fmt::format("{}{}{}", rotary_ ? "swing" : "lift", suffix,
-                       rotary_ ? (suffix.empty() ? "_rad" : "") : "_m");
-  }
+  std::string motion_key(std::string_view suffix) const { return follower_key(rotary_, suffix); }
 
   void table() {
-    Table table{.name = "cam"};
     std::vector<Motion> motions;
     std::vector<CamState> states;
     for (const double angle : angles_) {
       motions.push_back(curve_(angle));
       states.push_back(cam_state(s_.cam, motions.back(), angle));
     }
+    const FollowerKind follower{
+        rotary_, s_.cam.roller(), !s_.cam.has_pitch_curve(), s_.cam.prime_radius(), {}};
+    Table table = contour_table("cam", follower, angles_, motions, states);
     const auto add = [&](std::string key, std::string label, const auto& number) {
       std::vector<double> values;
       for (std::size_t k = 0; k < angles_.size(); ++k) values.push_back(number(motions[k], states[k]));
       table.add(std::move(key), std::move(label), std::move(values));
     };
-    const double most = straight * s_.cam.prime_radius();
-    const auto bounded = [most](double radius) { return std::abs(radius) < most ? radius : nan; };
-    const std::string what = rotary_ ? "swing" : "lift", unit = rotary_ ? "" : " (m)";
-    table.add("cam_angle_rad", "cam angle (rad)", angles_);
-    add(motion_key(""), what + (rotary_ ? " (rad)" : " (m)"), [](const Motion& m, auto&) { return m.value; });
-    add(motion_key("_rate"), "first derivative of the " + what + " by the cam angle" + unit,
-        [](const Motion& m, auto&) { return m.rate; });
-    add(motion_key("_second_rate"), "second derivative of the " + what + " by the cam angle" + unit,
-        [](const Motion& m, auto&) { return m.acceleration; });
-    add(motion_key("_third_rate"), "third derivative of the " + what + " by the cam angle" + unit,
-        [](const Motion& m, auto&) { return m.jerk; });
-    add("pressure_angle_rad", "pressure angle (rad)",
-        [](const Motion&, const CamState& s) { return s.pressure_angle; });
-    if (s_.cam.roller() > 0)
-      add("pitch_radius_m", "radius of curvature of the pitch curve, positive = convex (m)",
-          [&](const Motion&, const CamState& s) { return bounded(1 / s.pitch_curvature); });
-    add("profile_radius_m", "radius of curvature of the profile, positive = convex (m)",
-        [&](const Motion&, const CamState& s) { return bounded(s.profile_radius); });
-    if (!s_.cam.has_pitch_curve())
-      add("contact_m",
-          rotary_ ? "contact along the face from the pivot (m)"
-                  : "contact along the face from the cam's axis (m)",
-          [](const Motion&, const CamState& s) { return s.contact; });
-    add("profile_x_m", "profile x (m)", [](const Motion&, const CamState& s) { return s.profile.x; });
-    add("profile_y_m", "profile y (m)", [](const Motion&, const CamState& s) { return s.profile.y; });
-    if (s_.cam.roller() > 0) {
-      add("pitch_x_m", "pitch curve x (m)", [](const Motion&, const CamState& s) { return s.pitch.x; });
-      add("pitch_y_m", "pitch curve y (m)", [](const Motion&, const CamState& s) { return s.pitch.y; });
-    }
     if (s_.cutter_radius) {
       const double radius = *s_.cutter_radius;
       add("cutter_x_m", "centre of the cutter x (m)",
@@ -311,6 +281,54 @@ Sentence bound_words(CamBound bound) {
 }
 
 }  // namespace
+
+std::string follower_key(bool rotary, std::string_view suffix) {
+  return fmt::format("{}{}{}", rotary ? "swing" : "lift", suffix,
+                     rotary ? (suffix.empty() ? "_rad" : "") : "_m");
+}
+
+Table contour_table(std::string name, const FollowerKind& follower, const std::vector<double>& angles,
+                    const std::vector<Motion>& motions, const std::vector<CamState>& states) {
+  Table table{.name = std::move(name)};
+  const bool rotary = follower.rotary;
+  const auto add = [&](std::string key, std::string label, const auto& number) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < angles.size(); ++k) values.push_back(number(motions[k], states[k]));
+    table.add(std::move(key), std::move(label), std::move(values));
+  };
+  const double most = straight * follower.size;
+  const auto bounded = [most](double radius) { return std::abs(radius) < most ? radius : nan; };
+  const std::string what = rotary ? "swing" : "lift", unit = rotary ? "" : " (m)";
+  table.add("cam_angle_rad", "cam angle (rad)", angles);
+  add(follower_key(rotary, ""), what + (rotary ? " (rad)" : " (m)"),
+      [](const Motion& m, auto&) { return m.value; });
+  add(follower_key(rotary, "_rate"), "first derivative of the " + what + " by the cam angle" + unit,
+      [](const Motion& m, auto&) { return m.rate; });
+  add(follower_key(rotary, "_second_rate"), "second derivative of the " + what + " by the cam angle" + unit,
+      [](const Motion& m, auto&) { return m.acceleration; });
+  add(follower_key(rotary, "_third_rate"), "third derivative of the " + what + " by the cam angle" + unit,
+      [](const Motion& m, auto&) { return m.jerk; });
+  add("pressure_angle_rad", "pressure angle (rad)",
+      [](const Motion&, const CamState& s) { return s.pressure_angle; });
+  if (follower.roller > 0)
+    add("pitch_radius_m", "radius of curvature of the pitch curve, positive = convex (m)",
+        [&](const Motion&, const CamState& s) { return bounded(1 / s.pitch_curvature); });
+  add("profile_radius_m", "radius of curvature of the profile, positive = convex (m)",
+      [&](const Motion&, const CamState& s) { return bounded(s.profile_radius); });
+  if (follower.is_flat)
+    add("contact_m",
+        follower.contact_label.empty() ? rotary ? "contact along the face from the pivot (m)"
+                                                : "contact along the face from the cam's axis (m)"
+                                       : follower.contact_label,
+        [](const Motion&, const CamState& s) { return s.contact; });
+  add("profile_x_m", "profile x (m)", [](const Motion&, const CamState& s) { return s.profile.x; });
+  add("profile_y_m", "profile y (m)", [](const Motion&, const CamState& s) { return s.profile.y; });
+  if (follower.roller > 0) {
+    add("pitch_x_m", "pitch curve x (m)", [](const Motion&, const CamState& s) { return s.pitch.x; });
+    add("pitch_y_m", "pitch curve y (m)", [](const Motion&, const CamState& s) { return s.pitch.y; });
+  }
+  return table;
+}
 
 study::Result run_cam(const CamStudy& study, const study::Common& common) {
   return CamReport(study, common).make();

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/planar/cam/programme.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/function/dead_centres.h"
 #include "linkwright/study/kind.h"
@@ -13,11 +14,6 @@
 // Quick-return linkages: crank-rockers by swing angle and time ratio, slider-cranks by stroke and time ratio;
 // what their file holds, how it is read, run and reported.
 namespace linkwright::planar {
-
-enum class Rotation { counterclockwise, clockwise };
-constexpr std::array<EnumName<Rotation>, 2> names(Rotation) {
-  return {{{Rotation::counterclockwise, "counterclockwise"}, {Rotation::clockwise, "clockwise"}}};
-}
 
 /// The sense in which the rocker turns during the slow stroke.
 enum class SlowSwing { with_crank, against_crank };

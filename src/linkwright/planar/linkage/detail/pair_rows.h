@@ -14,7 +14,7 @@
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/motion.h"
 
-// The equation of a rack or of a strand, once for positions, rates, accelerations and forces.
+// The equation of a rack, strand, gear or cam, once for positions, rates, accelerations and forces.
 namespace linkwright::planar {
 
 // The share of a part in the equation: its rate is the sum over the parts of force times velocity and moment
@@ -30,7 +30,7 @@ struct PairShare {
 struct PairRow {
   double residual = 0;   // m
   double remainder = 0;  // second derivative of the equation without the accelerations of the parts, m/s2
-  std::array<PairShare, 3> shares;  // those that are not used are of the ground
+  std::array<PairShare, 4> shares;  // those that are not used are of the ground
 };
 
 // A strand between its wheels, straight.
@@ -151,18 +151,72 @@ PairRow pair_row(const CurvePair& c, const std::vector<PartState<double>>& parts
   out.shares = {share(c.first, -slope), share(c.second, 1), share(c.carrier, slope - 1)};
   return out;
 }
+// The programme of a cam that has turned by an angle in its sense.
+inline math::Motion programme_at(const CamPair& c, double angle) {
+  if (!std::isfinite(angle)) return {nan, nan, nan, nan};
+  if (c.is_sector) {
+    // A cam whose turns are not counted is taken into the sector.
+    const double middle = (c.programme.breaks().front() + c.programme.breaks().back()) / 2;
+    angle -= full_turn * std::round((angle - middle) / full_turn);
+  }
+  return c.programme(angle);
+}
+// The angle of a cam in its programme. `angle` gives the angle of a part.
+template <class Angle>
+double cam_angle(const CamPair& c, const Angle& angle) {
+  return c.phase + c.sense * (angle(c.cam.part) + angle_of(c.cam.direction) - angle(c.base.part) -
+                              angle_of(c.base.direction));
+}
+template <class Angle>
+PairRow pair_row(const CamPair& c, const std::vector<PartState<double>>& parts, const Angle& angle) {
+  const auto state = [&](const PartPoint& p) -> const PartState<double>& {
+    return parts[static_cast<std::size_t>(p.part)];
+  };
+  const math::Motion programme = programme_at(c, cam_angle(c, angle));
+  const double unit = c.slide ? 1 : c.scale, ratio = unit * c.sense * programme.rate,
+               relative = state(c.cam).speed - state(c.base).speed;
+  PairRow out;
+  out.residual = -unit * (c.offset + programme.value);
+  out.remainder = -unit * programme.acceleration * relative * relative;
+  const auto turns = [&](const PartPoint& p, double share, double around) {
+    return PairShare{p.part, {0, 0}, share, share, around};
+  };
+  // A turning cam repeats its programme.
+  out.shares[0] = turns(c.cam, -ratio, 0);
+  out.shares[1] = turns(c.base, ratio, 0);
+  if (!c.slide) {
+    out.residual += unit * (angle(c.moved_second.part) + angle_of(c.moved_second.direction) -
+                            angle(c.moved_first.part) - angle_of(c.moved_first.direction));
+    out.shares[2] = turns(c.moved_first, -unit, unit);
+    out.shares[3] = turns(c.moved_second, unit, unit);
+    return out;
+  }
+  const PartState<double>&first = state(c.moved_first), &second = state(c.moved_second);
+  const math::Vec2 along = rotate(first.direction, c.moved_first.direction);
+  const math::Vec2 point = point_on(second, c.moved_second.at);
+  const math::Vec2 arm = point - second.origin, first_arm = point - first.origin;
+  out.residual += dot(along, point - point_on(first, c.moved_first.at));
+  out.remainder +=
+      first.speed * first.speed * dot(along, first_arm) - second.speed * second.speed * dot(along, arm) +
+      2 * first.speed * dot(perpendicular(along), velocity_at(second, point) - velocity_at(first, point));
+  out.shares[2] = PairShare{c.moved_first.part, -along, -cross(first_arm, along), 0, 0};
+  out.shares[3] = PairShare{c.moved_second.part, along, cross(arm, along), 0, 0};
+  return out;
+}
 template <class Angle>
 PairRow pair_row(const PlanPair& pair, const std::vector<PartState<double>>& parts, const Angle& angle) {
   return std::visit([&](const auto& kind) { return pair_row(kind, parts, angle); }, pair.kind);
 }
 
-// The parts of a pair; the ground where there are only two.
-inline std::array<int, 3> parts_of(const PlanPair& pair) {
-  if (const auto* rack = std::get_if<RackPair>(&pair.kind)) return {rack->pinion.part, rack->rack.part, 0};
+// The parts of a pair; the ground where there are fewer.
+inline std::array<int, 4> parts_of(const PlanPair& pair) {
+  if (const auto* rack = std::get_if<RackPair>(&pair.kind)) return {rack->pinion.part, rack->rack.part, 0, 0};
   if (const auto* curve = std::get_if<CurvePair>(&pair.kind))
-    return {curve->first, curve->second, curve->carrier};
+    return {curve->first, curve->second, curve->carrier, 0};
+  if (const auto* cam = std::get_if<CamPair>(&pair.kind))
+    return {cam->base.part, cam->cam.part, cam->moved_first.part, cam->moved_second.part};
   const auto& strand = std::get<StrandPair>(pair.kind);
-  return {strand.first.part, strand.second.part, 0};
+  return {strand.first.part, strand.second.part, 0, 0};
 }
 
 // The least size of a residual (m) by whole turns of one of the parts that `loose` says.

@@ -87,6 +87,9 @@ void add_belts(PlanDraft& d);
 bool find_follower(PlanDraft& d);
 void check_left_pairs(PlanDraft& d);
 
+// plan_cams.cpp: cams and their followers.
+void add_cams(PlanDraft& d);
+
 // plan_pins.cpp: pairs the links of a pin of several so that another one can be placed or a dyad closes;
 // false where no other pairs would help. `find_shared_pins` says at the end what the pairs of the model
 // carry.
