@@ -189,6 +189,16 @@ TEST(Study, OutputWords) {
               HasSubstr("output.samples: is 1, must be at least 2"));
 }
 
+TEST(Study, OneSeedHasAShortForm) {
+  const Prepare p(changed("seeds = { first = 1, count = 2 }", "seed = 7"));
+  ASSERT_TRUE(p.study) << p.messages;
+  EXPECT_EQ(p.study->common.seeds.first, 7);
+  EXPECT_EQ(p.study->common.seeds.count, 1);
+  EXPECT_THAT(messages("seeds = {", "seed = 7\nseeds = {"),
+              HasSubstr("optimiser.seed: stands beside seeds; keep one of them"));
+  EXPECT_THAT(messages("seeds = { first = 1, count = 2 }", "seed = -1"), HasSubstr("optimiser.seed: "));
+}
+
 TEST(Study, KindsWithoutTargetSeedsOrQuantities) {
   const std::string_view head =
       "schema = 1\nkind = 'analysis'\n[mechanism]\ntype = 'sample.wheel'\nlength_m = 1\n";

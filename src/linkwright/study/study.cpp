@@ -34,6 +34,26 @@ const Field quantities_field = field::entry("quantities", "what is computed; all
 const Field seeds_field = field::entry("seeds", "one run for each seed");
 const Field check_field = field::entry("check", "makes the study a regression test");
 
+/// `[optimiser] seed`, the short form of seeds.
+struct OneSeed {
+  std::optional<std::int64_t> seed;
+};
+template <class Visitor>
+void fields(Visitor&& visit, OneSeed& one) {
+  visit(field::entry("seed", "the only seed, instead of seeds").not_negative(), one.seed);
+}
+
+void read_seeds(ObjectReader& optimiser, Seeds& seeds) {
+  optimiser(seeds_field, seeds);
+  OneSeed one;
+  optimiser.read(one);
+  if (!one.seed) return;
+  if (optimiser.has("seeds"))
+    optimiser.error("seed", "stands beside seeds", "keep one of them");
+  else
+    seeds = {*one.seed, 1};
+}
+
 /// Keeps the kinds whose `part` is the word at a key. A misspelt word is an error, and the reading continues
 /// with the word that was probably meant, so that the other problems of the file are found too.
 void choose(std::vector<const Kind*>& kinds, std::string Kind::*part, ObjectReader& table,
@@ -227,7 +247,7 @@ std::optional<Study> prepare(const Value& given, const std::string& file, const 
   if (study.kind) {
     reader.explain(study.kind->absent);
     if (study.kind->seeded)
-      if (auto optimiser = root.table("optimiser")) (*optimiser)(seeds_field, common.seeds);
+      if (auto optimiser = root.table("optimiser")) read_seeds(*optimiser, common.seeds);
     if (study.kind->seeded) require_room_for_candidates(root, document, common);
     prepared = study.kind->prepare(root, common);
   } else {
@@ -315,7 +335,10 @@ Value schema_of(const Kind& kind) {
   for (Value::Member& member : own.as_object()) document[member.key] = std::move(member.value);
   if (!kind.mechanism.empty()) add_property(document, "mechanism", "type", constant(kind.mechanism), true);
   if (!kind.target.empty()) add_property(document, "target", "type", constant(kind.target), true);
-  if (kind.seeded) add_property(document, "optimiser", "seeds", schema_fields<Seeds>(), false);
+  if (kind.seeded) {
+    add_property(document, "optimiser", "seeds", schema_fields<Seeds>(), false);
+    add_property(document, "optimiser", "seed", schema_fields<OneSeed>()["properties"]["seed"], false);
+  }
   return document;
 }
 

@@ -19,7 +19,7 @@ using namespace test;
 using math::Vec2;
 using std::complex;
 
-constexpr double degree = pi / 180;
+constexpr double degrees = pi / 180;
 
 // Boom and stick with pins that turn them.
 Linkage arm(double boom_angle, double stick_angle) {
@@ -95,7 +95,7 @@ PathDrives along(const Linkage& l, const LinkagePlan& plan, const FollowedPoint&
 }
 
 TEST(LinkageInverse, BoomAndStickFollowALineAsInTheReference) {
-  Linkage l = excavator(20 * degree, -60 * degree);
+  Linkage l = excavator(20 * degrees, -60 * degrees);
   without_mass(l);
   l.forces.push_back({"load", point_named(l, "stick.T"), {0, -12000}});
   const LinkagePlan plan = planned(l);
@@ -116,9 +116,9 @@ TEST(LinkageInverse, BoomAndStickFollowALineAsInTheReference) {
     const Vec2 tip = place_of(l, plan, motion, "stick.T");
     EXPECT_NEAR(tip.x, wanted[1], 1e-14);
     EXPECT_NEAR(tip.y, wanted[2], 1e-14);
-    EXPECT_NEAR(angle_of(body_state(plan, motion, body_index(l, "boom")).direction), wanted[3] * degree,
+    EXPECT_NEAR(angle_of(body_state(plan, motion, body_index(l, "boom")).direction), wanted[3] * degrees,
                 1e-13);
-    EXPECT_NEAR(angle_of(body_state(plan, motion, body_index(l, "stick")).direction), wanted[4] * degree,
+    EXPECT_NEAR(angle_of(body_state(plan, motion, body_index(l, "stick")).direction), wanted[4] * degrees,
                 1e-13);
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_NEAR(row.inputs[k].value, wanted[5 + k], 1e-10);
@@ -133,7 +133,7 @@ TEST(LinkageInverse, BoomAndStickFollowALineAsInTheReference) {
 // Rates and accelerations against differences of the drives found at neighbouring times, and the power of the
 // drives against the change of energy of the moving masses.
 TEST(LinkageInverse, RatesAndPowerAgreeWithSecondRoutes) {
-  Linkage l = excavator(20 * degree, -60 * degree);
+  Linkage l = excavator(20 * degrees, -60 * degrees);
   for (std::size_t b = 1; b < l.bodies.size(); ++b)
     l.bodies[b].mass =
         BodyMass{.mass = 40.0 + 10 * static_cast<double>(b), .inertia = 7, .centre = {0.4, 0.1}};
@@ -167,7 +167,7 @@ TEST(LinkageInverse, RatesAndPowerAgreeWithSecondRoutes) {
 
 TEST(LinkageInverse, PathThatLeavesTheReachEndsWhereTheArmIsStretched) {
   for (const double side : {1.0, -1.0}) {
-    const Linkage l = arm(side * 20 * degree, -side * 60 * degree);
+    const Linkage l = arm(side * 20 * degrees, -side * 60 * degrees);
     const LinkagePlan plan = planned(l);
     const FollowedPoint point = followed(l, "stick.T");
     const PointPathMotion path(line_to({5.2, 0}, 2), {4.2, 0}, 0);
@@ -190,7 +190,7 @@ TEST(LinkageInverse, PathThatLeavesTheReachEndsWhereTheArmIsStretched) {
 
 // A path that ends at the edge of the reach is whole; its last row has no rates.
 TEST(LinkageInverse, PathMayEndWhereTheArmIsStretched) {
-  const Linkage l = arm(20 * degree, -60 * degree);
+  const Linkage l = arm(20 * degrees, -60 * degrees);
   const LinkagePlan plan = planned(l);
   const PointPathMotion path(line_to({4.8, 0}, 1), {4.2, 0}, 0);
   const PathDrives found = along(l, plan, followed(l, "stick.T"), path, {0, 0.5, 1});
@@ -202,7 +202,7 @@ TEST(LinkageInverse, PathMayEndWhereTheArmIsStretched) {
 }
 
 TEST(LinkageInverse, FoldedArmIsNamed) {
-  const Linkage l = arm(20 * degree, 160 * degree);
+  const Linkage l = arm(20 * degrees, 160 * degrees);
   const LinkagePlan plan = planned(l);
   const PointPathMotion path(line_to({0.8, 0}, 1), {2.2, 0}, 0);
   const PathDrives found = along(l, plan, followed(l, "stick.T"), path, {0, 0.25, 0.5, 0.75, 1});
@@ -224,7 +224,7 @@ TEST(LinkageInverse, PistonTurnsTheCrankOnTheSideOfTheDrawing) {
     add_pin(l, "B", "rod.B", "piston.B");
     add_slide(l, "guide", "ground.O", "piston.B");
     add_drive(l, "O");
-    const complex<double> a = std::polar(0.05, (side ? -1 : 1) * 80 * degree);
+    const complex<double> a = std::polar(0.05, (side ? -1 : 1) * 80 * degrees);
     const double x = a.real() + std::sqrt(0.0225 - a.imag() * a.imag());
     set_start(l, "crank", 0, std::arg(a));
     set_start(l, "rod", a, std::arg(x - a));
@@ -233,7 +233,7 @@ TEST(LinkageInverse, PistonTurnsTheCrankOnTheSideOfTheDrawing) {
     const FollowedPoint point = followed(l, "piston.B", FollowedCoordinates::x);
     const PointPathMotion path(line_to({0.21, 0}, 1), {0.18, 0}, 0);
     const PathDrives found = along(l, plan, point, path, {0, 0.2, 0.4, 0.6, 0.8, 1});
-    EXPECT_NEAR(found.rows[0].inputs[0].value / degree, numbers(at(c, "computed.crank_deg"))[side], 1e-11);
+    EXPECT_NEAR(found.rows[0].inputs[0].value / degrees, numbers(at(c, "computed.crank_deg"))[side], 1e-11);
     EXPECT_EQ(found.status, Status::limit_reached);
     EXPECT_NEAR(found.last.position.x, numbers(at(c, "computed.singular_at_x_m"))[1], 1e-13);
     EXPECT_NEAR(found.share, 2.0 / 3, 1e-11);

@@ -439,115 +439,140 @@ void add_springs(study::Result& result, const CornerDescription& d, const RideFo
   if (d.springs.rebound_stop) add_stop_facts(result, model, *d.springs.rebound_stop, true, positions, rack);
 }
 
-void add_opposite_travel(study::Result& result, const AxleDescription& both, const RideForm& ride,
-                         std::span<const double> travels, const RunContext& context) {
-  const std::array<const CornerDescription*, 2> wheels{&both.left, &both.right};
-  const AxlePlan plan = prepare_axle(both.left.suspension, both.right.suspension);
-  if (reference_position(plan).status != Status::done) return;  // the sweep says why
-  const auto positions =
-      sweep_axle(plan, AxleMotion::opposite, travels, {.driver = ride.coordinate}, &context);
-  if (positions.size() < travels.size()) result.status = context.interruption();
-  const std::array models{SpringModel(both.left, ride), SpringModel(both.right, ride)};
-  using Rows = std::array<SpringRow, 2>;
-  std::vector<std::optional<Rows>> found;
-  for (const AxleRow& row : positions) {
-    found.emplace_back();
-    if (row.position.status != Status::done) continue;
-    const Rows at{models[0].at(row.position.left), models[1].at(row.position.right)};
-    if (at[0].motions.status == Status::done && at[1].motions.status == Status::done) found.back() = at;
-  }
+namespace {
+
+/// Springs and bars of both wheels at one opposite travel: the left wheel, the right one.
+using OppositeRows = std::array<SpringRow, 2>;
+
+/// The table of opposite travel: rows without a position have no numbers.
+struct OppositeTable {
   Table table{.name = "opposite"};
-  std::vector<double> values;
-  for (const AxleRow& row : positions) values.push_back(row.value);
-  table.add("travel_m", "travel of the left wheel, that of the right one is opposite (m)", std::move(values));
-  if (std::any_of(found.begin(), found.end(), [](const auto& row) { return !row; }))
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      table.status.emplace_back(to_string(found[i] ? Status::done
-                                          : positions[i].position.status == Status::done
-                                              ? Status::singular
-                                              : positions[i].position.status));
-  const auto add = [&](std::string key, std::string label, auto&& value) {
+  std::vector<std::optional<OppositeRows>> found;
+
+  template <class Value>
+  void add(std::string key, std::string label, Value&& value) {
     std::vector<double> column;
     for (const auto& row : found) column.push_back(row ? value(*row) : missing);
     table.add(std::move(key), std::move(label), std::move(column));
-  };
+  }
+};
+
+void add_opposite_wheels(OppositeTable& out, const AxleDescription& both) {
+  const std::array<const CornerDescription*, 2> wheels{&both.left, &both.right};
   for (const std::size_t side : {0U, 1U}) {
     const std::string word = side == 0 ? "left" : "right";
     const CornerDescription& wheel = *wheels[side];
     for (std::size_t k = 0; k < wheel.suspension.rockers.size(); ++k) {
       const std::string& name = wheel.suspension.rockers[k].name;
       if (name == bar_arm && wheel.springs.anti_roll_bar->post_top) continue;
-      add(fmt::format("{}_{}_angle_rad", word, plain_name(name)),
-          fmt::format("{} {} angle (rad)", word, name == bar_arm ? arm_words(wheel) : name),
-          [=](const Rows& rows) { return rows[side].motions.rockers[k].value; });
+      out.add(fmt::format("{}_{}_angle_rad", word, plain_name(name)),
+              fmt::format("{} {} angle (rad)", word, name == bar_arm ? arm_words(wheel) : name),
+              [=](const OppositeRows& rows) { return rows[side].motions.rockers[k].value; });
     }
     if (wheel.spring || wheel.springs.torsion_bar) {
-      add(word + "_wheel_force_N", fmt::format("force of springs and stops at the {} wheel (N)", word),
-          [=](const Rows& rows) { return rows[side].own_force(); });
-      add(word + "_wheel_rate_N_per_m", fmt::format("{} wheel rate of springs and stops (N/m)", word),
-          [=](const Rows& rows) { return rows[side].own_rate(); });
+      out.add(word + "_wheel_force_N", fmt::format("force of springs and stops at the {} wheel (N)", word),
+              [=](const OppositeRows& rows) { return rows[side].own_force(); });
+      out.add(word + "_wheel_rate_N_per_m", fmt::format("{} wheel rate of springs and stops (N/m)", word),
+              [=](const OppositeRows& rows) { return rows[side].own_rate(); });
     }
   }
+}
+
+void add_opposite_bar(OppositeTable& out, const AxleDescription& both) {
   const auto &left_bar = both.left.springs.anti_roll_bar, &right_bar = both.right.springs.anti_roll_bar;
-  if (left_bar && right_bar) {
-    const double k = left_bar->stiffness;
-    // The twist by a path on which both wheels travel by these shares of its coordinate.
-    const auto twist = [&](const Rows& rows, double left, double right) {
-      return bar_twist(both, rows[0].motions, rows[1].motions, left, right);
-    };
-    const auto opposite = [=](const Rows& rows) { return twist(rows, 1, -1); };
-    if (left_bar->post_top)
-      add("anti_roll_bar_tilt_rad", "tilt of the T bar (rad)",
-          [=](const Rows& rows) { return opposite(rows).tilt; });
-    add("twist_rad",
-        left_bar->post_top ? "twist of the T bar's post (rad)"
-                           : "twist of the anti-roll bar, left less right arm (rad)",
-        [=](const Rows& rows) { return opposite(rows).value; });
-    add("twist_by_travel_rad_per_m", "twist by travel (rad/m)",
-        [=](const Rows& rows) { return opposite(rows).by_travel; });
-    add("anti_roll_bar_moment_N_m", "moment of the anti-roll bar (N m)",
-        [=](const Rows& rows) { return k * opposite(rows).value; });
-    add("left_anti_roll_bar_force_N", "force of the anti-roll bar at the left wheel (N)",
-        [=](const Rows& rows) { return k * opposite(rows).value * twist(rows, 1, 0).by_travel; });
-    add("right_anti_roll_bar_force_N", "force of the anti-roll bar at the right wheel (N)",
-        [=](const Rows& rows) { return k * opposite(rows).value * twist(rows, 0, 1).by_travel; });
-    add("anti_roll_bar_wheel_rate_N_per_m", "rate of the anti-roll bar at each wheel, by its stiffness (N/m)",
-        [=](const Rows& rows) {
-          const double by_travel = opposite(rows).by_travel;
-          return k * by_travel * by_travel / 2;
-        });
-    add("anti_roll_bar_geometric_rate_N_per_m",
-        "rate of the anti-roll bar at each wheel, by its moment (N/m)",
-        [=](const Rows& rows) { return k * opposite(rows).value * opposite(rows).change / 2; });
-  }
-  if (both.left.springs.heave_spring && both.right.springs.heave_spring) {
-    const SpringLaw& law = both.left.springs.heave_spring->law;
-    const auto reference = [](const CornerDescription& d) {
-      return d.suspension.elements[d.springs.heave_spring->element].second.at;
-    };
-    const double drawn = norm(reference(both.left) - reference(both.right));
-    const auto across = [](const Rows& rows) {
-      Vec3 out;
-      const auto &l = rows[0].motions.ends_across[0], &r = rows[1].motions.ends_across[0];
-      out.x = l[0].value - r[0].value, out.y = l[1].value - r[1].value, out.z = l[2].value - r[2].value;
-      return out;
-    };
-    const auto push = [=](const Rows& rows) { return force_of(law, drawn - norm(across(rows))).force; };
-    add("heave_spring_length_m", "length of the heave spring (m)",
-        [=](const Rows& rows) { return norm(across(rows)); });
-    add("heave_spring_force_N", "force of the heave spring (N)", push);
-    for (const std::size_t side : {0U, 1U}) {
-      const std::string word = side == 0 ? "left" : "right";
-      add(word + "_heave_spring_force_N", fmt::format("force of the heave spring at the {} wheel (N)", word),
-          [=](const Rows& rows) {
-            const auto& end = rows[side].motions.ends_across[0];
-            const Vec3 d = across(rows);
-            const double lengthens = (d.x * end[0].ratio + d.y * end[1].ratio + d.z * end[2].ratio) / norm(d);
-            return push(rows) * (side == 0 ? -lengthens : lengthens);
+  if (!left_bar || !right_bar) return;
+  const double k = left_bar->stiffness;
+  // The twist by a path on which both wheels travel by these shares of its coordinate.
+  const auto twist = [&](const OppositeRows& rows, double left, double right) {
+    return bar_twist(both, rows[0].motions, rows[1].motions, left, right);
+  };
+  const auto opposite = [=](const OppositeRows& rows) { return twist(rows, 1, -1); };
+  if (left_bar->post_top)
+    out.add("anti_roll_bar_tilt_rad", "tilt of the T bar (rad)",
+            [=](const OppositeRows& rows) { return opposite(rows).tilt; });
+  out.add("twist_rad",
+          left_bar->post_top ? "twist of the T bar's post (rad)"
+                             : "twist of the anti-roll bar, left less right arm (rad)",
+          [=](const OppositeRows& rows) { return opposite(rows).value; });
+  out.add("twist_by_travel_rad_per_m", "twist by travel (rad/m)",
+          [=](const OppositeRows& rows) { return opposite(rows).by_travel; });
+  out.add("anti_roll_bar_moment_N_m", "moment of the anti-roll bar (N m)",
+          [=](const OppositeRows& rows) { return k * opposite(rows).value; });
+  out.add("left_anti_roll_bar_force_N", "force of the anti-roll bar at the left wheel (N)",
+          [=](const OppositeRows& rows) { return k * opposite(rows).value * twist(rows, 1, 0).by_travel; });
+  out.add("right_anti_roll_bar_force_N", "force of the anti-roll bar at the right wheel (N)",
+          [=](const OppositeRows& rows) { return k * opposite(rows).value * twist(rows, 0, 1).by_travel; });
+  out.add("anti_roll_bar_wheel_rate_N_per_m",
+          "rate of the anti-roll bar at each wheel, by its stiffness (N/m)", [=](const OppositeRows& rows) {
+            const double by_travel = opposite(rows).by_travel;
+            return k * by_travel * by_travel / 2;
           });
-    }
+  out.add("anti_roll_bar_geometric_rate_N_per_m",
+          "rate of the anti-roll bar at each wheel, by its moment (N/m)",
+          [=](const OppositeRows& rows) { return k * opposite(rows).value * opposite(rows).change / 2; });
+}
+
+void add_opposite_heave_spring(OppositeTable& out, const AxleDescription& both) {
+  if (!both.left.springs.heave_spring || !both.right.springs.heave_spring) return;
+  const SpringLaw& law = both.left.springs.heave_spring->law;
+  const auto reference = [](const CornerDescription& d) {
+    return d.suspension.elements[d.springs.heave_spring->element].second.at;
+  };
+  const double drawn = norm(reference(both.left) - reference(both.right));
+  const auto across = [](const OppositeRows& rows) {
+    Vec3 out;
+    const auto &l = rows[0].motions.ends_across[0], &r = rows[1].motions.ends_across[0];
+    out.x = l[0].value - r[0].value, out.y = l[1].value - r[1].value, out.z = l[2].value - r[2].value;
+    return out;
+  };
+  const auto push = [=](const OppositeRows& rows) { return force_of(law, drawn - norm(across(rows))).force; };
+  out.add("heave_spring_length_m", "length of the heave spring (m)",
+          [=](const OppositeRows& rows) { return norm(across(rows)); });
+  out.add("heave_spring_force_N", "force of the heave spring (N)", push);
+  for (const std::size_t side : {0U, 1U}) {
+    const std::string word = side == 0 ? "left" : "right";
+    out.add(
+        word + "_heave_spring_force_N", fmt::format("force of the heave spring at the {} wheel (N)", word),
+        [=](const OppositeRows& rows) {
+          const auto& end = rows[side].motions.ends_across[0];
+          const Vec3 d = across(rows);
+          const double lengthens = (d.x * end[0].ratio + d.y * end[1].ratio + d.z * end[2].ratio) / norm(d);
+          return push(rows) * (side == 0 ? -lengthens : lengthens);
+        });
   }
-  result.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+void add_opposite_travel(study::Result& result, const AxleDescription& both, const RideForm& ride,
+                         std::span<const double> travels, const RunContext& context) {
+  const AxlePlan plan = prepare_axle(both.left.suspension, both.right.suspension);
+  if (reference_position(plan).status != Status::done) return;  // the sweep says why
+  const auto positions =
+      sweep_axle(plan, AxleMotion::opposite, travels, {.driver = ride.coordinate}, &context);
+  if (positions.size() < travels.size()) result.status = context.interruption();
+  const std::array models{SpringModel(both.left, ride), SpringModel(both.right, ride)};
+  OppositeTable out;
+  for (const AxleRow& row : positions) {
+    out.found.emplace_back();
+    if (row.position.status != Status::done) continue;
+    const OppositeRows at{models[0].at(row.position.left), models[1].at(row.position.right)};
+    if (at[0].motions.status == Status::done && at[1].motions.status == Status::done) out.found.back() = at;
+  }
+  std::vector<double> values;
+  for (const AxleRow& row : positions) values.push_back(row.value);
+  out.table.add("travel_m", "travel of the left wheel, that of the right one is opposite (m)",
+                std::move(values));
+  if (std::any_of(out.found.begin(), out.found.end(), [](const auto& row) { return !row; }))
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      out.table.status.emplace_back(to_string(out.found[i] ? Status::done
+                                              : positions[i].position.status == Status::done
+                                                  ? Status::singular
+                                                  : positions[i].position.status));
+  add_opposite_wheels(out, both);
+  add_opposite_bar(out, both);
+  add_opposite_heave_spring(out, both);
+  result.tables.push_back(std::move(out.table));
   const study::AddPlot plot{result, {.table = "opposite", .x = "travel_m"}};
   plot("opposite-twist", "Twist of the anti-roll bar over opposite travel", {"twist_rad"});
   plot("opposite-forces", "Force of the anti-roll bar at the wheels over opposite travel",
