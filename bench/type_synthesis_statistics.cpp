@@ -5,13 +5,15 @@
 //   type_synthesis_statistics [MACHINES [CURVES [FAMILY...]]]
 //
 // draws so many machines (40) of each family, with pair angles of at least 23 degrees and no link of 9 sizes
-// of the curve or more, searches its family along the curve with so many curves (600 000), and prints a table
-// in Markdown: searches that end with an error below 0.05 % of the size. Machine k is drawn with the seed 5
-// and searched with the seed k. A search takes some tenths of a second on two threads.
+// of the curve or more, searches its family along the curve with so many curves (600 000) or, written as 2s,
+// for so many seconds on two threads, and prints a table in Markdown: searches that end with an error below
+// 0.05 % of the size. Machine k is drawn with the seed 5 and searched with the seed k. The atlas of a family
+// is drawn before its first search. 600 000 curves take some tenths of a second on two threads.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <complex>
 #include <cstdint>
 #include <cstdlib>
@@ -21,6 +23,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/planar/type_synthesis/atlas.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 #include "linkwright/planar/type_synthesis/draw_shape.h"
 #include "linkwright/planar/type_synthesis/polish.h"
@@ -76,15 +79,41 @@ Stroke drawn_curve(MachineFamily family, std::uint32_t number) {
   }
 }
 
-std::string row(MachineFamily family, std::uint32_t count, std::int64_t curves) {
+/// Where a search ends.
+struct SearchEnd {
+  std::int64_t curves = 0;  ///< 0 = by its time
+  double seconds = 0;
+};
+
+SearchEnd end_of(std::string_view word) {
+  SearchEnd out;
+  const double number = std::max(0.0, std::strtod(std::string(word).c_str(), nullptr));
+  if (word.ends_with('s'))
+    out.seconds = std::max(number, 0.01);
+  else
+    out.curves = std::max<std::int64_t>(1000, static_cast<std::int64_t>(number));
+  return out;
+}
+
+std::string row(MachineFamily family, std::uint32_t count, const SearchEnd& end) {
+  {
+    RunContext context;
+    family_atlas(family, context);
+  }
   std::uint32_t recovered = 0;
   std::vector<double> errors;
+  std::int64_t curves = 0;
   std::string missed;
   for (std::uint32_t number = 0; number < count; ++number) {
     RunContext context;
+    context.set_threads(2);
+    const SampledStroke target = sampled_stroke(drawn_curve(family, number));
+    if (end.seconds > 0) context.set_time_limit(std::chrono::duration<double>(end.seconds));
     const TypeSearchAnswer answer = search_types(
-        sampled_stroke(drawn_curve(family, number)),
-        {.families = {family}, .max_links = links_of(family), .max_curves = curves, .seed = number}, context);
+        target,
+        {.families = {family}, .max_links = links_of(family), .max_curves = end.curves, .seed = number},
+        context);
+    curves += answer.curves;
     errors.push_back(answer.families[0].error);
     if (errors.back() < recovered_below)
       ++recovered;
@@ -92,8 +121,8 @@ std::string row(MachineFamily family, std::uint32_t count, std::int64_t curves) 
       missed += fmt::format("{}{}", missed.empty() ? "" : ", ", number);
   }
   std::sort(errors.begin(), errors.end());
-  return fmt::format("| {} | {} of {} | {:.1e} | {:.1e} | {} |\n", name_of(family), recovered, count,
-                     errors[errors.size() / 2], errors.back(), missed);
+  return fmt::format("| {} | {} of {} | {:.1e} | {:.1e} | {} | {} |\n", name_of(family), recovered, count,
+                     errors[errors.size() / 2], errors.back(), curves / count, missed);
 }
 
 }  // namespace
@@ -101,16 +130,18 @@ std::string row(MachineFamily family, std::uint32_t count, std::int64_t curves) 
 int main(int argc, char** argv) {
   const auto number = [&](int i, long long otherwise) { return argc > i ? std::atoll(argv[i]) : otherwise; };
   const auto count = static_cast<std::uint32_t>(std::max(1LL, number(1, 40)));
-  const std::int64_t curves = std::max(1000LL, number(2, 600'000));
-  fmt::print("{} machines of each family, {} curves a search\n\n", count, curves);
+  const SearchEnd end = end_of(argc > 2 ? argv[2] : "600000");
+  fmt::print("{} machines of each family, {} a search\n\n", count,
+             end.seconds > 0 ? fmt::format("{} s", end.seconds) : fmt::format("{} curves", end.curves));
   fmt::print(
-      "| family | recovered | median error | largest error | not recovered |\n|---|---|---|---|---|\n");
+      "| family | recovered | median error | largest error | curves | not recovered "
+      "|\n|---|---|---|---|---|---|\n");
   for (const auto& family : names(MachineFamily{})) {
     if (programs_of(family.value).empty()) continue;
     const bool asked = argc <= 3 || std::find_if(argv + 3, argv + argc, [&](const char* name) {
                                       return name == family.name;
                                     }) != argv + argc;
-    if (asked) fmt::print("{}", row(family.value, count, curves));
+    if (asked) fmt::print("{}", row(family.value, count, end));
     std::fflush(stdout);
   }
   return 0;

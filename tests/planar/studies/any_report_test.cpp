@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 std::vector<std::string> reported_studies() {
   const std::string head =
       "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"planar.any\"\n"
-      "families = [\"four_bar\"]\n[optimiser]\nevaluations = 20000\n";
+      "families = [\"four_bar\"]\n[optimiser]\nevaluations = 6000\n";
   const std::string limits = "[limits]\nlongest_link = 2.5\n";
   return {
       head + limits +

@@ -117,8 +117,9 @@ TEST(LeastGreatestErrors, KeepAllLimits) {
       lessen_greatest_error(target, f.limits, found.machine, context);
       const MachineMeasures now = fitter.measure(found.machine);
       EXPECT_EQ(now.defect, MachineDefect::none) << f.name << ", " << found.machine.shape.program->name;
-      lessened += greatest_error_of(target, now) < 0.95 * before ? 1 : 0;
-      if (slides && greatest_error_of(target, now) < before) {
+      if (!(greatest_error_of(target, now) < 0.95 * before)) continue;
+      ++lessened;
+      if (slides) {
         const PointProgram& p = *found.machine.shape.program;
         const std::vector<double>& x = found.machine.shape.x;
         const auto place = static_cast<std::size_t>(p.place()),
