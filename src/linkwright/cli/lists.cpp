@@ -87,12 +87,11 @@ struct Concept {
   std::string_view answer;
 };
 constexpr std::array concepts{
-    Concept{"cam cams nocken",
-            "disc cams are analysis/planar.cam, and synthesis/planar.cam finds the smallest one; cams as "
-            "parts of "
-            "a linkage are not modelled. Nearest: a motion law of a joint ([[drive]] law = ... in "
-            "simulations and "
-            "serial arms), a dwell (synthesis/planar.six_bar/dwell)"},
+    Concept{
+        "cam cams nocken",
+        "disc cams are analysis/planar.cam, and synthesis/planar.cam finds the smallest one; a cam in a "
+        "linkage is [[mechanism.cam]] of analysis/planar.linkage and simulation/planar.linkage, as in the "
+        "example overhead-cam-valve"},
     Concept{"geneva maltese",
             "a Geneva drive is a joint of type \"geneva\" in analysis/planar.linkage, as in the example "
             "geneva-drive"},

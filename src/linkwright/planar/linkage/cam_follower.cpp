@@ -27,6 +27,18 @@ Linkage without_cams(const Linkage& linkage) {
   return out;
 }
 
+// The sign of the value of a programme that is farthest from the base circle.
+double main_sense(const CamProgramme& programme) {
+  constexpr int looks = 90;
+  const ProgrammeCurve curve(programme);
+  double farthest = 0;
+  for (int k = 0; k <= looks; ++k) {
+    const double value = curve(curve.breaks().back() * k / looks).value;
+    if (std::abs(value) > std::abs(farthest)) farthest = value;
+  }
+  return farthest < 0 ? -1 : 1;
+}
+
 }  // namespace
 
 std::optional<CamBodies> bodies_of(const Linkage& l, const LinkageCam& cam) {
@@ -83,13 +95,14 @@ double CamFollower::distance(double coordinate) {
 std::optional<double> CamFollower::on_base_circle(double base_radius) {
   constexpr int looks = 720;
   const double wanted = base_radius + cam_.roller(), middle = drawn().value_or(0),
-               reach = plan_.rotary[input_] ? pi : 2 * (plan_.size + wanted + std::abs(middle));
+               reach = plan_.rotary[input_] ? pi : 2 * (plan_.size + wanted + std::abs(middle)),
+               away = drawn() ? 0 : main_sense(cam_.programme);
   const auto apart = [&](double coordinate) { return std::abs(distance(coordinate)) - wanted; };
   std::optional<double> best;
   double last_at = middle - reach, last = apart(last_at);
   for (int k = 1; k <= looks; ++k) {
     const double here = middle - reach + 2 * reach * k / looks, now = apart(here);
-    if (std::isfinite(last) && std::isfinite(now) && (last <= 0) != (now <= 0)) {
+    if (std::isfinite(last) && std::isfinite(now) && (last <= 0) != (now <= 0) && away * (now - last) >= 0) {
       const double found = math::zero_between(apart, last_at, here);
       if (!best || std::abs(found - middle) < std::abs(*best - middle)) best = found;
     }

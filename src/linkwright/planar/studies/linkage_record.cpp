@@ -17,6 +17,7 @@ LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const L
     r.bodies.push_back(body_state(plan, motion, b));
   if (forces && forces->status == Status::done) {
     r.joints = forces->joints;
+    r.cams = forces->cams;
     r.drives = forces->drives;
     r.shaking_force = forces->shaking_force;
     // Behind those of springs, and of the two bodies of a torque the first.

@@ -25,6 +25,7 @@
 #include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/linkage/strut.h"
+#include "linkwright/planar/studies/linkage_cams.h"
 #include "linkwright/planar/studies/linkage_drives.h"
 #include "linkwright/planar/studies/linkage_holding.h"
 #include "linkwright/planar/studies/linkage_path.h"
@@ -97,6 +98,7 @@ class Runner {
     if (s_.plan.inputs() == 1 && !over_time()) add_quality(s_, branch_, result_);
     plots();
     facts();
+    add_cams(s_, result_);
     if (s_.holding) add_holding_facts(s_, result_);
     add_drives(s_, history_, result_);
     warnings();
@@ -243,6 +245,7 @@ class Runner {
         if (!has_teeth(j.type)) sizes.push_back(identifier(j.name) + "_N");
       plot("reactions", "Joint forces", sizes);
     }
+    if (q.reactions) plot("contact-force", "Contact forces of the cams", columns_ending("_contact_N", 6));
     if (q.shaking) {
       plot("shaking-force", "Shaking force", {"shaking_force_x_N", "shaking_force_y_N", "shaking_force_N"});
       plot("shaking-moment", "Shaking moment about " + moment_centre_name(s_.linkage),

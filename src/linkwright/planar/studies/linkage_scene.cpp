@@ -9,10 +9,12 @@
 #include <functional>
 #include <string_view>
 #include <tuple>
+#include <variant>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/detail/cam_follower.h"
 #include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/open_pose.h"
@@ -69,6 +71,8 @@ class Artist {
     joints();
     wheels();
     belts();
+    cams();
+    slots();
     springs();
     masses();
     gaps();
@@ -205,6 +209,102 @@ class Artist {
       const int a = add_point("", moving, [&](const LinkageRecord&r) { return line(r).first; }),
                 b = add_point("", moving, [&](const LinkageRecord&r) { return line(r).second; });
       scene_.bodies.push_back({belt.name, {a, b}, Style::guide});
+    }
+  }
+  // The slots of Geneva wheels, from where the pin enters to where it turns back.
+  void slots() {
+    const auto first = std::find_if(records_.begin(), records_.end(),
+                                    [](const LinkageRecord& r) { return !r.bodies.empty(); });
+    if (first == records_.end()) return;
+    for (const Group& g : plan_.groups)
+      for (const PlanPair& pair : g.pairs)
+        if (const auto* curve = std::get_if<CurvePair>(&pair.kind); curve && curve->geneva && curve->mesh)
+          wheel_slots(*curve, l_.joints[at(pair.joint)], *first);
+  }
+  void wheel_slots(const CurvePair& pair, const LinkageJoint& j, const LinkageRecord& r) {
+    const int wheel = j.second.body;
+    const auto on_body = [&](int body, const PartPoint& p) {
+      const BodyOnPart& on = plan_.bodies[at(body)];
+      return rotate_inverse(on.turn, p.at - on.origin);
+    };
+    const math::Vec2 axis = on_body(wheel, pair.mesh->second);
+    const math::Vec2 to_crank =
+        point_on(r.bodies[at(j.first.body)], on_body(j.first.body, pair.mesh->first)) -
+        point_on(r.bodies[at(wheel)], axis);
+    const BodyOnPart &carrier = plan_.bodies[at(j.carrier)], &on = plan_.bodies[at(wheel)];
+    // In the frame of the wheel when a slot lies along the line of the axes.
+    const double along = angle_of(rotate_inverse(
+                             rotate(r.bodies[at(j.carrier)].direction, conjugate(carrier.turn)), to_crank)) +
+                         pair.second_offset - angle_of(on.turn);
+    const GenevaSlots& slots = *pair.geneva;
+    const double distance = norm(to_crank), crank = geneva_crank(slots, distance),
+                 entry = distance * std::cos(pi / slots.count),
+                 end = slots.internal ? distance + crank : distance - crank;
+    for (int k = 0; k < slots.count; ++k) {
+      const math::Vec2 direction = math::unit(along + full_turn * k / slots.count);
+      const int a = add_point("", wheel, number(axis + entry * direction)),
+                b = add_point("", wheel, number(axis + end * direction));
+      scene_.bodies.push_back({fmt::format("slot {} of {}", k + 1, j.name), {a, b}, Style::guide});
+    }
+  }
+  // The contours of cams, on their bodies, and what runs on them.
+  void cams() {
+    constexpr int corners = 180;
+    std::vector<double> offsets;
+    for (const CamPair& pair : plan_.cams) offsets.push_back(pair.offset);
+    for (std::size_t k = 0; k < l_.cams.size(); ++k) {
+      const LinkageCam& cam = l_.cams[k];
+      const CamPair& pair = plan_.cams[k];
+      CamFollower follower(l_, static_cast<int>(k), offsets);
+      const double whole = pair.programme.breaks().back();
+      const BodyOnPart& on = plan_.bodies[at(pair.cam_body)];
+      const math::Vec2 centre = rotate_inverse(on.turn, pair.cam.at - on.origin),
+                       turned = math::unit(pair.sense * pair.phase);
+      const bool is_groove = cam.form == CamForm::groove;
+      std::vector<int> inner, outer;
+      double low = 0, high = 0;
+      for (int c = 0; c < corners; ++c) {
+        const double angle = whole * c / corners;
+        const CamState state = follower.contour(pair.offset, pair.programme(angle), angle);
+        const auto corner = [&](const math::Vec2& place) {
+          return add_point("", pair.cam_body, number(centre + rotate(turned, place)));
+        };
+        inner.push_back(corner(state.profile));
+        if (is_groove) outer.push_back(corner(state.pitch + pair.roller * state.normal));
+        if (pair.is_flat && std::isfinite(state.contact))
+          low = std::min(low, state.contact), high = std::max(high, state.contact);
+      }
+      if (is_groove) scene_.bodies.push_back({cam.name + " outer flank", std::move(outer), Style::plate});
+      if (cam.programme.is_sector) inner.push_back(add_point("", pair.cam_body, number(centre)));
+      scene_.bodies.push_back({cam.name, std::move(inner), Style::plate});
+      const std::complex<double> touch = l_.bodies[at(cam.contact.body)].points[at(cam.contact.point)].at;
+      if (pair.roller > 0) circle(cam.name + " roller", cam.contact.body, touch, pair.roller);
+      if (!pair.is_flat) continue;
+      const double margin = 0.05 * (high - low) + 0.02 * plan_.size;
+      const std::complex<double> along = std::polar(1.0, cam.face_direction);
+      const int left = add_point("", cam.contact.body, touch + (low - margin) * along),
+                right = add_point("", cam.contact.body, touch + (high + margin) * along);
+      scene_.bodies.push_back({cam.name + " face", {left, right}, Style::bar});
+    }
+  }
+  void contact_forces() {
+    for (std::size_t k = 0; k < l_.cams.size(); ++k) {
+      const LinkageCam& cam = l_.cams[k];
+      study::Scene::Vector v{
+          .name = fmt::format("contact of {}, {} on {}", cam.name, l_.bodies[at(plan_.cams[k].cam_body)].name,
+                              l_.bodies[at(cam.contact.body)].name),
+          .quantity = study::Scene::Quantity::force,
+          .unit = "N",
+          .point = add_point("", cam.contact.body,
+                             [k](const LinkageRecord& r) {
+                               return k < r.cams.size() ? r.cams[k].point : math::Vec2{nan, nan};
+                             }),
+          .symbol = cam.name};
+      for (const LinkageRecord& r : records_) {
+        const math::Vec2 f = k < r.cams.size() ? r.cams[k].force * r.cams[k].normal : math::Vec2{nan, nan};
+        v.x.push_back(f.x), v.y.push_back(f.y);
+      }
+      scene_.vectors.push_back(std::move(v));
     }
   }
   // The line of a slide, as long as what runs on it needs.
@@ -437,6 +537,7 @@ class Artist {
       }
       scene_.vectors.push_back(std::move(v));
     }
+    contact_forces();
     loads();
     shaking_force();
     for (std::size_t k = 0; k < l_.driven.size(); ++k) {

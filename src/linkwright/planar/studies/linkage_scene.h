@@ -22,6 +22,7 @@ struct LinkageRecord {
   std::array<math::Vec2, 2> gap{{{nan, nan}, {nan, nan}}};  ///< gap of a loop that does not close (lay_open)
   int open_group = -1;                                      ///< the group that does not
   std::vector<JointReaction> joints;                        ///< empty without forces
+  std::vector<CamContact> cams;                             ///< likewise
   std::vector<double> drives;
   /// Loads of Linkage::forces and then of Linkage::torques; empty without forces.
   std::vector<AppliedLoad> loads;

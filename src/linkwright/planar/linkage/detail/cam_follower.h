@@ -31,8 +31,8 @@ class CamFollower {
   // The distance of the centre of the cam from roller centre, edge or face (m) at a coordinate of the moved
   // joint; of a face negative where it lies to the left of the direction. NaN where it does not assemble.
   double distance(double coordinate);
-  // The coordinate where the follower touches the base circle, nearest to the drawn one or to 0; nothing if
-  // there is none.
+  // The coordinate where the follower touches the base circle: the one nearest to the drawn one, or without a
+  // drawing nearest to 0 of those where the programme moves it away from the cam. Nothing if there is none.
   std::optional<double> on_base_circle(double base_radius);
 
   // The contour at a motion of the programme and an angle of the cam; `offset` is the coordinate where the

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkwright/planar/studies/linkage_cams.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "linkwright/core/numbers.h"
+#include "planar/simulations.h"
+#include "planar/studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using namespace linkwright::planar::test;
+using testing::HasSubstr;
+
+constexpr double degree = pi / 180;
+
+// A tappet of 1.8 kg under a spring of 15 N/mm with 37.5 N, on a roller, with 1000 rpm; the guide in line.
+std::string tappet(const std::string& form = "outside", double gravity = 0) {
+  return R"(
+schema = 1
+kind   = "analysis"
+
+[mechanism]
+type = "planar.linkage"
+
+[[mechanism.body]]
+name      = "frame"
+points_mm = { O = [0, 0], S = [0, 100] }
+
+[[mechanism.body]]
+name          = "cam"
+points_mm     = { O = [0, 0] }
+mass_kg       = 0
+inertia_kg_m2 = 0
+centre_mm     = [0, 0]
+
+[[mechanism.body]]
+name          = "tappet"
+points_mm     = { R = [0, 0] }
+mass_kg       = 1.8
+inertia_kg_m2 = 0
+centre_mm     = [0, 0]
+
+[[mechanism.joint]]
+name   = "shaft"
+first  = "frame.O"
+second = "cam.O"
+
+[[mechanism.joint]]
+name          = "guide"
+type          = "prismatic"
+first         = "frame.O"
+second        = "tappet.R"
+direction_deg = 90
+
+[[mechanism.cam]]
+name             = "lift"
+turns            = "shaft"
+moves            = "guide"
+contact          = "tappet.R"
+roller_radius_mm = 10
+base_radius_mm   = 40
+form             = ")" +
+         form + R"("
+
+[[mechanism.cam.segment]]
+law      = "cycloidal"
+over_deg = 120
+to_mm    = 10
+
+[[mechanism.cam.segment]]
+law      = "dwell"
+over_deg = 60
+
+[[mechanism.cam.segment]]
+law      = "cycloidal"
+over_deg = 120
+to_mm    = 0
+
+[[mechanism.cam.segment]]
+law      = "dwell"
+over_deg = 60
+
+[environment]
+gravity_m_per_s2 = )" +
+         std::to_string(gravity) + R"(
+
+[drive]
+joint     = "shaft"
+speed_rpm = 1000
+
+[sweep]
+type = "grid"
+
+[[sweep.input]]
+from_deg = 0
+to_deg   = 360
+samples  = 721
+)";
+}
+// The spring pulls the tappet down: 150 mm above it is free at 2.5 mm above the base circle.
+const std::string spring = R"(
+[[mechanism.strut]]
+name        = "spring"
+first       = "frame.S"
+second      = "tappet.R"
+against     = "length"
+argument_mm = [0, 100]
+force_table_N = [787.5, -712.5]
+)";
+
+TEST(LinkageCams, ClassicExerciseHasThePublishedFigures) {
+  const study::Result r = run_text(tappet() + spring);
+  ASSERT_EQ(r.status, Status::done);
+  const Table& sweep = r.tables[0];
+  EXPECT_NEAR(sweep.find("shaft_drive_torque_N_m")->values[200], -0.1472694443441289, 1e-12);
+  const double contact = sweep.find("lift_contact_N")->values[200],
+               pressure = sweep.find("lift_pressure_angle_rad")->values[200];
+  EXPECT_NEAR(contact * std::cos(pressure), -61.688080593302175, 1e-9);
+  EXPECT_EQ(fact(r, "lift-off speed of lift"), "779.826 rpm, first at 213.093°");
+  EXPECT_EQ(fact(r, "base circle of lift"), "40 mm");
+  EXPECT_THAT(to_string(r.diagnostics[0].message),
+              HasSubstr("the follower of 'lift' lifts off at 213.093° above 779.826 rpm, and the "
+                        "drive has 1000 rpm"));
+  ASSERT_TRUE(r.table("cam_lift"));
+  EXPECT_NEAR(r.table("cam_lift")->find("lift_m")->values[60], 0.005, 1e-15);
+}
+
+// Weight holds the lower flank in the dwells; signs of the acceleration and of the weight decide elsewhere.
+TEST(LinkageCams, FlanksOfAGrooveChangeWherePublished) {
+  const study::Result r = run_text(tappet("groove", 9.81));
+  EXPECT_EQ(fact(r, "changes of the flank of lift"), "61.1935°, 118.806°, 181.194°, 238.806°");
+}
+
+TEST(LinkageCams, AStudyReadsBackAsItIsWritten) {
+  std::string messages;
+  const auto study = prepare(tappet() + spring, messages);
+  ASSERT_TRUE(study) << messages;
+  EXPECT_EQ(messages, "");
+}
+
+TEST(LinkageCams, MessagesSayWhatToMend) {
+  const std::string all = tappet();
+  const auto problem = [&](const std::string& from, const std::string& to) {
+    return problems_of(replaced(all, from, to));
+  };
+  EXPECT_THAT(problem("moves            = \"guide\"", "moves            = \"gide\""),
+              HasSubstr("there is no joint 'gide'"));
+  EXPECT_THAT(problem("over_deg = 60", "over_deg = 50"), HasSubstr("the programme covers 350° of the turn"));
+  EXPECT_THAT(problem("to_mm    = 10", "to_deg   = 10"),
+              HasSubstr("the follower of cam 'lift' slides, and has to in deg; write to_mm"));
+  EXPECT_THAT(problem("roller_radius_mm = 10\n", ""), HasSubstr("the roller of cam 'lift' has no radius"));
+  EXPECT_THAT(problem("contact          = \"tappet.R\"", "contact          = \"cam.O\""),
+              HasSubstr("the contact of cam 'lift' is on 'cam', which is the cam"));
+  EXPECT_THAT(problem("base_radius_mm   = 40\n", ""),
+              HasSubstr("the base circle of cam 'lift' is not known"));
+  EXPECT_THAT(problem("law      = \"cycloidal\"\nover_deg = 120\nto_mm    = 10",
+                      "law      = \"constant_speed\"\nover_deg = 120\nto_mm    = 10"),
+              HasSubstr("the speed of the follower would jump by"));
+  EXPECT_THAT(problem("turns            = \"shaft\"", "turns            = \"guide\""),
+              HasSubstr("joint 'guide', on which the cam turns, is not a pin"));
+}
+
+// A shaft that nothing drives: its energy gives its speed at every angle.
+TEST(LinkageCams, ShaftRunsFreely) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_body(l, "cam", {{"O", {0, 0}}});
+  add_body(l, "follower", {{"R", {0, 0}}});
+  add_pin(l, "shaft", "ground.O", "cam.O");
+  add_slide(l, "guide", "ground.O", "follower.R", pi / 2, pi / 2);
+  l.bodies[1].mass = BodyMass{0, 0.02, 0};
+  l.bodies[2].mass = BodyMass{0.8, 0, 0};
+  l.gravity = 0;
+  const double base = 0.05, stiffness = 6000, preload = 0.004;
+  l.cams.push_back({.name = "lift",
+                    .turns = 0,
+                    .moves = 1,
+                    .contact = {2, 0},
+                    .roller_radius = 0.01,
+                    .base_radius = base - 0.01,
+                    .programme = {.segments = {{CamLaw::cycloidal, 120 * degree, 0.012, {}},
+                                               {CamLaw::dwell, 60 * degree, 0, {}},
+                                               {CamLaw::polynomial_345, 120 * degree, 0, {}},
+                                               {CamLaw::dwell, 60 * degree, 0, {}}}}});
+  // A spring from the axis, which is drawn longer by its preload.
+  l.springs.push_back({"spring", {0, 0}, {2, 0}, stiffness, base - preload, 0});
+  add_drive(l, "shaft");
+  const LinkagePlan plan = planned(l);
+  InputDrive drive;
+  drive.value = 0, drive.rate = 30;
+  constexpr double turn = 0.21361996851374337;
+  SimulationOptions options;
+  options.relative_tolerance = 1e-12, options.absolute_tolerance = 1e-12;
+  const SimulationRun run = simulated(l, plan, {drive}, evenly(0, turn, 201), options);
+  ASSERT_EQ(run.report.status, Status::done);
+  const ProgrammeCurve lift(l.cams[0].programme);
+  const auto speed = [&](double angle) {
+    const math::Motion m = lift(angle);
+    const double stored = stiffness / 2 * (std::pow(m.value + preload, 2) - preload * preload);
+    return std::sqrt((0.02 * 900 - 2 * stored) / (0.02 + 0.8 * m.rate * m.rate));
+  };
+  EXPECT_NEAR(speed(60 * degree), 29.499646270038756, 1e-12);
+  EXPECT_NEAR(speed(150 * degree), 28.774989139876315, 1e-12);
+  EXPECT_NEAR(speed(240 * degree), 29.508983214621214, 1e-12);
+  LinkageMotion motion(plan);
+  LinkageForces forces;
+  double least = infinity;
+  for (const auto& row : run.rows) {
+    EXPECT_NEAR(row.inputs[0].rate, speed(row.inputs[0].value), 1e-8);
+    solve_motion(plan, row.inputs, motion);
+    solve_forces(l, plan, motion, row.time, row.inputs[0].value, forces);
+    least = std::min(least, forces.cams[0].force);
+    EXPECT_NEAR(forces.drives[0], 0, 1e-8);
+  }
+  EXPECT_NEAR(run.rows.back().inputs[0].value, full_turn, 3e-8);  // 1e-9 s of its speed
+  EXPECT_NEAR(least, 24, 1e-4);
+}
+
+}  // namespace
+}  // namespace linkwright::planar
