@@ -156,6 +156,30 @@ TEST(LinkageForm, TakesThePressureAngleFromTheModule) {
                   "apart: the teeth would overlap; move the centres, or take module 1.76"));
 }
 
+TEST(LinkageForm, TakesPitchRadii) {
+  LinkageForm form = epicyclic_form();
+  form.joints[3].teeth.reset(), form.joints[4].teeth.reset();
+  form.joints[3].pitch_radii = {0.02, 0.03};
+  form.joints[4].pitch_radii = {0.03, 0.08};
+  std::vector<FormProblem> problems;
+  const Linkage l = linkage_of(form, problems);
+  ASSERT_THAT(problems, IsEmpty());
+  EXPECT_EQ(l.joints[3].ratio, -0.02 / 0.03);
+  EXPECT_EQ(l.joints[4].ratio, 0.03 / 0.08);
+  form.joints[3].pitch_radii = {0.018, 0.03};
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.3.pitch_radii: the pitch circles of gear 'sun gear' touch at 48 mm, its "
+                          "centres are 50 mm apart; move the centres, or change the radii; teeth or ratio "
+                          "take any distance"));
+  form.joints[3].pitch_radii = {0.02};
+  EXPECT_THAT(form_problems(form), ElementsAre("joint.3.pitch_radii: gear 'sun gear' has no two pitch radii "
+                                               "above 0; write two, that of the first wheel first"));
+  form.joints[3].pitch_radii = {0.02, 0.03};
+  form.joints[3].ratio = -0.5;
+  EXPECT_THAT(form_problems(form),
+              ElementsAre("joint.3.pitch_radii: gear 'sun gear' has ratio and pitch radii; leave one"));
+}
+
 TEST(LinkageForm, NamesWhatIsWrongWithGears) {
   LinkageForm form = epicyclic_form();
   form.joints[3].ratio = -2.0 / 3;
@@ -176,7 +200,7 @@ TEST(LinkageForm, NamesWhatIsWrongWithGears) {
   form.joints[4].ratio = 0.375;
   EXPECT_THAT(form_problems(form),
               ElementsAre("joint.4.internal: gear 'ring gear' has a ring but no teeth; write the teeth "
-                          "of both wheels; a ratio of a ring is positive by itself"));
+                          "or the pitch radii of both wheels; a ratio of a ring is positive by itself"));
   form = epicyclic_form();
   form.joints.erase(form.joints.begin() + 2);
   EXPECT_THAT(form_problems(form),

@@ -110,9 +110,35 @@ void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
 
 namespace {
 
+// The same by the radii of the pitch circles.
+double ratio_of_radii(const JointForm& f, InternalWheel internal, Names& names) {
+  const std::vector<double>& radii = *f.pitch_radii;
+  if (radii.size() != 2 || !(radii[0] > 0 && radii[1] > 0)) {
+    names.problem("pitch_radii", fmt::format("gear '{}' has no two pitch radii above 0", f.name),
+                  "write two, that of the first wheel first");
+    return 1;
+  }
+  if (internal == InternalWheel::none) return -radii[0] / radii[1];
+  const bool first_is_ring = internal == InternalWheel::first;
+  if (!(radii[first_is_ring ? 0 : 1] > radii[first_is_ring ? 1 : 0]))
+    names.problem(
+        "internal",
+        fmt::format("internal wheel '{}' is not larger than its pinion", first_is_ring ? f.first : f.second),
+        "the ring has the larger radius: swap `internal`");
+  return radii[0] / radii[1];
+}
+
 // The speed of the second wheel by that of the first.
 double ratio_of(const JointForm& f, Names& names) {
   const InternalWheel internal = f.internal.value_or(InternalWheel::none);
+  if (f.pitch_radii && (f.teeth || f.ratio || f.ratio_curve))
+    names.problem("pitch_radii",
+                  fmt::format("gear '{}' has {} and pitch radii", f.name,
+                              f.teeth   ? "teeth"
+                              : f.ratio ? "ratio"
+                                        : "a ratio curve"),
+                  "leave one");
+  if (f.pitch_radii) return ratio_of_radii(f, internal, names);
   if (f.teeth && f.ratio)
     names.problem("ratio", fmt::format("gear '{}' has teeth and ratio", f.name), "leave one");
   if (f.ratio_curve && (f.teeth || f.ratio))
@@ -121,8 +147,9 @@ double ratio_of(const JointForm& f, Names& names) {
                   "leave one");
   if (!f.teeth) {
     if (internal != InternalWheel::none)
-      names.problem("internal", fmt::format("gear '{}' has a ring but no teeth", f.name),
-                    "write the teeth of both wheels; a ratio of a ring is positive by itself");
+      names.problem(
+          "internal", fmt::format("gear '{}' has a ring but no teeth", f.name),
+          "write the teeth or the pitch radii of both wheels; a ratio of a ring is positive by itself");
     return f.ratio.value_or(1);
   }
   if (f.teeth->size() != 2 || f.teeth->front() < 1 || f.teeth->back() < 1) {
@@ -254,6 +281,21 @@ double working_angle(const Wheels& wheels, Names& names) {
           first, second, *f.module * 1e3, *f.module * sum / 2 * 1e3, *distance * 1e3),
       fmt::format("move the centres, or take module {:.3g}", 2e3 * *distance / sum));
   return angle;
+}
+
+// Pitch circles touch where the centres of their wheels keep their distance.
+void check_pitch_radii(const Wheels& wheels, Names& names) {
+  const auto& radii = wheels.form.pitch_radii;
+  const std::optional<double> distance = wheels.distance_on(wheels.gear.carrier);
+  if (!radii || radii->size() != 2 || !distance) return;
+  const bool external = wheels.form.internal.value_or(InternalWheel::none) == InternalWheel::none;
+  const double needed = external ? radii->front() + radii->back() : std::abs(radii->front() - radii->back());
+  if (std::abs(needed - *distance) > 1e-6 * needed)
+    names.problem("pitch_radii",
+                  fmt::format("the pitch circles of gear '{}' touch at {:.6g} mm, its centres are {:.6g} mm "
+                              "apart",
+                              wheels.form.name, needed * 1e3, *distance * 1e3),
+                  "move the centres, or change the radii; teeth or ratio take any distance");
 }
 
 // The radius of a pinion, with the side of the pitch line on which its centre lies; and its angle where it is
@@ -775,6 +817,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     const Wheels wheels{l, form.joints[i], l.joints[i], axes_of(l)};
     if (!form.joints[i].carrier) l.joints[i].carrier = carrier_of(wheels, names);
     l.joints[i].pressure_angle = working_angle(wheels, names);
+    check_pitch_radii(wheels, names);
   }
   for (std::size_t i = 0; i < form.belts.size() && pins_known; ++i) {
     names.at("belt", i);

@@ -66,6 +66,7 @@ struct JointForm {
   std::optional<double> direction_second;
   std::optional<double> ratio;
   std::optional<std::vector<int>> teeth;
+  std::optional<std::vector<double>> pitch_radii;
   std::optional<InternalWheel> internal;
   std::optional<double> module;
   double phase = 0;
@@ -278,6 +279,8 @@ void fields(Visitor&& visit, JointForm& j) {
             .between(-1e6, 1e6),
         j.ratio);
   visit(field::entry("teeth", "gear: teeth of both wheels, instead of `ratio`").between(1, 1000000), j.teeth);
+  visit(field::length("pitch_radii", "gear: radii of both pitch circles, instead of `teeth` or `ratio`"),
+        j.pitch_radii);
   visit(field::entry("internal",
                      "gear: wheel that is a ring with its teeth inside; Geneva drive: second, where the "
                      "crank turns within the wheel"),
