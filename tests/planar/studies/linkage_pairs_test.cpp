@@ -191,6 +191,16 @@ TEST(LinkagePairs, ScrewsDriveSlides) {
   const study::Result r = run_text(screw("lead_mm = 2.5\npitch_diameter_mm = 18.376\nfriction = 0.15"));
   EXPECT_NEAR(last(r, "screw_spindle_angle_rad"), 40 * full_turn, 1e-10);
   EXPECT_NEAR(last(r, "screw_spindle_torque_N_m"), 20.04329443848127, 1e-9);
+  // The same by turns of the spindle, and back.
+  std::string turns = screw("lead_mm = 2.5\npitch_diameter_mm = 18.376\nfriction = 0.15");
+  turns = replaced(turns, "speed_m_per_s = 0.01", "speed_rpm = 240");
+  turns = replaced(turns, "from_mm = 0.0\nto_mm   = 100.0", "from_deg = 0\nto_deg = 14400");
+  const study::Result raised = run_text(turns);
+  EXPECT_NEAR(last(raised, "screw_spindle_speed_rad_per_s"), 8 * pi, 1e-12);
+  EXPECT_NEAR(last(raised, "screw_displacement_m"), 0.1, 1e-15);
+  EXPECT_NEAR(last(raised, "screw_spindle_torque_N_m"), 20.04329443848127, 1e-9);
+  const study::Result lowered = run_text(replaced(turns, "speed_rpm = 240", "speed_rpm = -240"));
+  EXPECT_NEAR(last(lowered, "screw_spindle_torque_N_m"), -11.846353709539015, 1e-9);
   EXPECT_EQ(fact(r, "efficiency of screw"), "0.1985 against the load; margin of self-locking 4");
   EXPECT_THAT(problems_of(screw("")),
               HasSubstr("screw 'screw' has no lead; give the displacement for one turn of the spindle"));

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
+#include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_drives.h"
 #include "linkwright/planar/studies/linkage_holding.h"
@@ -69,6 +71,11 @@ bool follows(const LinkagePath& path, std::size_t input) {
   return std::find(drives.begin(), drives.end(), input) != drives.end();
 }
 
+// True if a table has a key in units of an angle or of its derivative: one of the spindle of a screw.
+bool has_turns(study::ObjectReader& table, int order, std::string_view key) {
+  return table.has(drive_field(true, order, key, ""));
+}
+
 // The kinds of a sweep share the reading of drives: rates over a grid, laws over time; on a path the drives
 // that follow it have none.
 void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType type, bool over_time,
@@ -91,7 +98,10 @@ void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType ty
     LinkageDrive& d = s.drives[*input];
     if (limited) joint_fields(drive, rotary, d.limits);
     if (!over_time) {
-      joint_fields(drive, rotary, d);
+      const auto& screw = input_joint(l, *input).screw;
+      const bool of_spindle = screw && (has_turns(drive, 1, "speed") || has_turns(drive, 2, "acceleration"));
+      joint_fields(drive, rotary || of_spindle, d);
+      if (of_spindle) d.rate /= spindle_turning(*screw), d.acceleration /= spindle_turning(*screw);
     } else if (!s.path || !follows(*s.path, *input)) {
       d.law = read_law(drive, rotary, true, canonical[*input]);
     } else if (drive.has("law")) {
@@ -209,7 +219,10 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& 
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     InputSamples& a = grid.inputs[*input];
     a.joint = input_joint(l, *input).name;
-    joint_fields(axis, rotary, a, !assembled);
+    const auto& screw = input_joint(l, *input).screw;
+    const bool of_spindle = screw && (has_turns(axis, 0, "from") || has_turns(axis, 0, "to"));
+    joint_fields(axis, rotary || of_spindle, a, !assembled);
+    if (of_spindle) a.from /= spindle_turning(*screw), a.to /= spindle_turning(*screw);
     rows *= std::max(a.samples, 1);
     if (a.samples >= 2 && a.from == a.to)
       axis.error("to",
