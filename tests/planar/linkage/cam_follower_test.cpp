@@ -14,28 +14,28 @@
 #include "planar/cams.h"
 #include "planar/linkages.h"
 
-// Cams as members of linkages, against the closed forms of followers, other routes and differences.
+// Cams as members of linkages, against the closed forms of follower_cases, other routes and differences.
 namespace linkwright::planar {
 namespace {
 
 using namespace linkwright::planar::test;
 using testing::HasSubstr;
 
-constexpr double mass = 1.8, inertia = 0.01, shaft_speed = 60;
+constexpr double follower_mass = 1.8, follower_inertia = 0.01, camshaft_speed = 60;
 
 // The programme of another follower whose coordinate counts the other way, or is mirrored.
-CamProgramme turned_over(CamProgramme p) {
+CamProgramme counted_the_other_way(CamProgramme p) {
   p.start = -p.start;
   for (CamSegment& s : p.segments) s.to = -s.to;
   return p;
 }
-CamProgramme lift_programme() {
+CamProgramme lift_and_back() {
   return {.segments = {{CamLaw::cycloidal, 120 * degree, 0.02, {}},
                        {CamLaw::dwell, 60 * degree, 0, {}},
                        {CamLaw::polynomial_345, 120 * degree, 0, {}},
                        {CamLaw::dwell, 60 * degree, 0, {}}}};
 }
-CamProgramme swing_programme() {
+CamProgramme swing_and_return() {
   return {.segments = {{CamLaw::polynomial_345, 110 * degree, 20 * degree, {}},
                        {CamLaw::dwell, 50 * degree, 0, {}},
                        {CamLaw::modified_sine, 120 * degree, 0, {}},
@@ -43,16 +43,16 @@ CamProgramme swing_programme() {
 }
 
 // A cam at O under a follower as planar/cam has it; with a mirror everything at -x.
-struct Machine {
+struct CamMachine {
   Linkage linkage;
   LinkagePlan plan;
 };
-Machine machine_of(Linkage l, PlanRoute route = PlanRoute::along_groups) {
+CamMachine cam_machine(Linkage l, PlanRoute route = PlanRoute::along_groups) {
   PlanResult r = plan_linkage(l, route);
   EXPECT_TRUE(r.problems.empty()) << (r.problems.empty() ? "" : to_string(r.problems[0].message));
   return {std::move(l), std::move(r.plan)};
 }
-Linkage follower_of(const DiscCam& cam, CamProgramme programme, double mirror = 1) {
+Linkage linkage_with(const DiscCam& cam, CamProgramme programme, double mirror = 1) {
   const bool is_flat = cam.face == FollowerFace::flat;
   Linkage l = grounded({{"O", {0, 0}}, {"G", {mirror * cam.offset, 0}}, {"P", {mirror * cam.pivot, 0}}});
   add_body(l, "cam", {{"O", {0, 0}}});
@@ -69,7 +69,7 @@ Linkage follower_of(const DiscCam& cam, CamProgramme programme, double mirror = 
   if (cam.motion == FollowerMotion::translating) {
     add_body(l, "follower", {{"G", {0, 0}}, {"B", {0, 0}}});
     add_slide(l, "guide", "ground.G", "follower.G", pi / 2, pi / 2);
-    l.bodies[2].mass = BodyMass{mass, 0, 0};
+    l.bodies[2].mass = BodyMass{follower_mass, 0, 0};
     c.programme = std::move(programme);
     // Above the cam, where a second place below it is as near.
     l.bodies[2].start = math::Pose{mirror * cam.offset, cam.prime_radius(), 0};
@@ -79,8 +79,8 @@ Linkage follower_of(const DiscCam& cam, CamProgramme programme, double mirror = 
         l, "follower",
         {{"P", {0, 0}}, {"B", is_flat ? std::complex<double>(0.03, -mirror * cam.face_offset) : cam.arm}});
     add_pin(l, "pivot", "ground.P", "follower.P");
-    l.bodies[2].mass = BodyMass{0, inertia, 0};
-    c.programme = mirror > 0 ? turned_over(std::move(programme)) : std::move(programme);
+    l.bodies[2].mass = BodyMass{0, follower_inertia, 0};
+    c.programme = mirror > 0 ? counted_the_other_way(std::move(programme)) : std::move(programme);
     l.bodies[2].start =
         math::Pose{mirror * cam.pivot, 0, mirror > 0 ? pi - base_position(cam) : base_position(cam)};
   }
@@ -91,12 +91,12 @@ Linkage follower_of(const DiscCam& cam, CamProgramme programme, double mirror = 
   return l;
 }
 
-struct Solved {
+struct SolvedCam {
   LinkageMotion motion;
   LinkageForces forces;
 };
-Solved solve(const Machine& m, double angle, double rate, double acceleration = 0) {
-  Solved s{LinkageMotion(m.plan), {}};
+SolvedCam solve_cam(const CamMachine& m, double angle, double rate, double acceleration = 0) {
+  SolvedCam s{LinkageMotion(m.plan), {}};
   const InputMotion input{angle, rate, acceleration};
   solve_motion(m.plan, std::span(&input, 1), s.motion);
   EXPECT_EQ(s.motion.status, Status::done);
@@ -104,12 +104,12 @@ Solved solve(const Machine& m, double angle, double rate, double acceleration = 
   return s;
 }
 
-struct Follower {
+struct FollowerCase {
   const char* name;
   DiscCam cam;
   CamProgramme programme;
 };
-std::vector<Follower> followers() {
+std::vector<FollowerCase> follower_cases() {
   DiscCam knife = roller_cam(0.005);
   knife.face = FollowerFace::knife, knife.roller_radius = 0;
   DiscCam flat{.face = FollowerFace::flat, .base_radius = 0.03, .offset = 0.004};
@@ -119,18 +119,18 @@ std::vector<Follower> followers() {
                                  {CamLaw::dwell, 40 * degree, 0, {}},
                                  {CamLaw::cycloidal, 140 * degree, 0, {}},
                                  {CamLaw::dwell, 40 * degree, 0, {}}}};
-  return {{"roller", roller_cam(), lift_programme()},
-          {"roller to the left", roller_cam(-0.008), lift_programme()},
-          {"knife", knife, lift_programme()},
-          {"flat", flat, lift_programme()},
-          {"arm with roller", oscillating_roller(), swing_programme()},
-          {"arm with edge", arm_with_edge, swing_programme()},
+  return {{"roller", roller_cam(), lift_and_back()},
+          {"roller to the left", roller_cam(-0.008), lift_and_back()},
+          {"knife", knife, lift_and_back()},
+          {"flat", flat, lift_and_back()},
+          {"arm with roller", oscillating_roller(), swing_and_return()},
+          {"arm with edge", arm_with_edge, swing_and_return()},
           {"arm with face", oscillating_flat(), tilt}};
 }
 
 // Every follower, both senses and both images, against the closed forms.
 TEST(CamFollower, IsThatOfTheClosedForms) {
-  for (const Follower& f : followers())
+  for (const FollowerCase& f : follower_cases())
     for (const bool clockwise : {false, true})
       for (const double mirror : {1.0, -1.0}) {
         SCOPED_TRACE(std::string(f.name) + (clockwise ? ", clockwise" : "") +
@@ -139,17 +139,18 @@ TEST(CamFollower, IsThatOfTheClosedForms) {
         cam.is_clockwise = clockwise;
         const ProgrammeCurve curve(f.programme);
         if (problem(cam, curve)) continue;
-        const Machine m = machine_of(follower_of(cam, f.programme, mirror));
+        const CamMachine m = cam_machine(linkage_with(cam, f.programme, mirror));
         ASSERT_EQ(m.plan.cams.size(), 1u);
         CamFollower follower(m.linkage, 0, {});
-        const FollowerLoad load{.inertia = cam.motion == FollowerMotion::translating ? mass : inertia,
-                                .speed = shaft_speed};
+        const FollowerLoad load{
+            .inertia = cam.motion == FollowerMotion::translating ? follower_mass : follower_inertia,
+            .speed = camshaft_speed};
         for (double angle = 0.05; angle < 2 * pi; angle += 0.37) {
           const math::Motion motion = curve(angle);
           const CamState wanted = cam_state(cam, motion, angle);
           const FollowerForces forces = follower_forces(wanted, motion, load);
           const double turned = mirror * cam.sense();
-          const Solved s = solve(m, turned * angle, turned * shaft_speed);
+          const SolvedCam s = solve_cam(m, turned * angle, turned * camshaft_speed);
           const CamContact& contact = s.forces.cams[0];
           const double scale = 1 + std::abs(forces.contact);
           EXPECT_NEAR(contact.force, forces.contact, 1e-10 * scale) << angle;
@@ -179,14 +180,14 @@ TEST(CamFollower, IsThatOfTheClosedForms) {
 // Rates and accelerations against differences, and Newton's method of all bodies at once, for a shaft that
 // speeds up.
 TEST(CamFollower, RatesAreThoseOfItsPlaces) {
-  for (const Follower& f : followers()) {
+  for (const FollowerCase& f : follower_cases()) {
     SCOPED_TRACE(f.name);
-    const Machine m = machine_of(follower_of(f.cam, f.programme));
+    const CamMachine m = cam_machine(linkage_with(f.cam, f.programme));
     Linkage copy = m.linkage;
-    const Machine whole = machine_of(std::move(copy), PlanRoute::all_at_once);
+    const CamMachine whole = cam_machine(std::move(copy), PlanRoute::all_at_once);
     constexpr double h = 1e-4, rate = 3, acceleration = 5;
     for (double angle = 0.1; angle < 2; angle += 0.4) {
-      const auto state = [&](const Machine& machine, double t) {
+      const auto state = [&](const CamMachine& machine, double t) {
         LinkageMotion motion(machine.plan);
         const InputMotion input{angle + rate * t + acceleration * t * t / 2, rate + acceleration * t,
                                 acceleration};
@@ -202,14 +203,14 @@ TEST(CamFollower, RatesAreThoseOfItsPlaces) {
       EXPECT_NEAR(norm(again.origin - now.origin), 0, 1e-13);
       EXPECT_NEAR(norm(again.acceleration - now.acceleration), 0, 1e-10);
       EXPECT_NEAR(again.angular_acceleration, now.angular_acceleration, 1e-10);
-      EXPECT_NEAR(solve(whole, angle, rate, acceleration).forces.cams[0].force,
-                  solve(m, angle, rate, acceleration).forces.cams[0].force, 1e-10);
+      EXPECT_NEAR(solve_cam(whole, angle, rate, acceleration).forces.cams[0].force,
+                  solve_cam(m, angle, rate, acceleration).forces.cams[0].force, 1e-10);
     }
   }
 }
 
 // A cam at the origin opens a valve over a finger; the programme is that of the valve.
-Linkage valve_train() {
+Linkage train_of_a_valve() {
   Linkage l = grounded({{"O", {0, 0}}, {"P", {-0.021, -0.03}}, {"G", {0.02, -0.034}}});
   add_drawn(l, "cam", {{"O", {0, 0}}});
   add_drawn(l, "finger", {{"P", {-0.021, -0.03}}, {"R", {0, -0.026}}, {"T", {0.02, -0.03}}});
@@ -239,11 +240,11 @@ Linkage valve_train() {
 // Newton and Euler for each body: the contact is among what the bodies feel.
 TEST(CamFollower, ContactMayBeOnAnotherBodyThanTheMovedOne) {
   for (const PlanRoute route : {PlanRoute::along_groups, PlanRoute::all_at_once}) {
-    const Machine m = machine_of(valve_train(), route);
+    const CamMachine m = cam_machine(train_of_a_valve(), route);
     const CamPair& pair = m.plan.cams[0];
     const ProgrammeCurve& lift = pair.programme;
     for (double angle = 0.2; angle < 6; angle += 0.3) {
-      const Solved s = solve(m, angle, 200, 30);
+      const SolvedCam s = solve_cam(m, angle, 200, 30);
       const auto body = [&](int b) { return body_state(m.plan, s.motion, b); };
       EXPECT_NEAR(
           body(3).origin.y,
@@ -282,11 +283,11 @@ TEST(CamFollower, ContactMayBeOnAnotherBodyThanTheMovedOne) {
 
 // The pitch curve as the path of the roller in the frame of the turning cam, by differences.
 TEST(CamFollower, ContourIsThePathOfTheFollowerOnTheCam) {
-  const Machine m = machine_of(valve_train());
+  const CamMachine m = cam_machine(train_of_a_valve());
   CamFollower follower(m.linkage, 0, {});
   const CamPair& pair = m.plan.cams[0];
   const auto pitch = [&](double angle) {
-    const Solved s = solve(m, angle - 20 * degree, 0);
+    const SolvedCam s = solve_cam(m, angle - 20 * degree, 0);
     // The frame of a cam whose programme stands at 0.
     return rotate_inverse(math::unit(angle),
                           point_motion(m.plan, s.motion, 2, m.linkage.bodies[2].points[1].at).position);
@@ -308,16 +309,16 @@ TEST(CamFollower, ContourIsThePathOfTheFollowerOnTheCam) {
 
 // The follower drives the cam: a group of its own for the shaft, with the same forces.
 TEST(CamFollower, MayDriveItsCam) {
-  Linkage l = follower_of(roller_cam(), lift_programme());
-  const Machine cam_drives = machine_of(l);
+  Linkage l = linkage_with(roller_cam(), lift_and_back());
+  const CamMachine cam_drives = cam_machine(l);
   l.driven = {1};
   l.bodies[1].start = math::Pose{0, 0, 60 * degree};
   l.bodies[2].start = math::Pose{0.008, base_position(roller_cam()) + 0.01, 0};
-  const Machine follower_drives = machine_of(l);
+  const CamMachine follower_drives = cam_machine(l);
   for (const double angle : {50 * degree, 60 * degree, 75 * degree}) {
-    const Solved s = solve(cam_drives, angle, 40, 7);
+    const SolvedCam s = solve_cam(cam_drives, angle, 40, 7);
     const PartState<double> follower = body_state(cam_drives.plan, s.motion, 2);
-    Solved back{LinkageMotion(follower_drives.plan), {}};
+    SolvedCam back{LinkageMotion(follower_drives.plan), {}};
     const InputMotion input{follower.origin.y, follower.velocity.y, follower.acceleration.y};
     solve_motion(follower_drives.plan, std::span(&input, 1), back.motion);
     ASSERT_EQ(back.motion.status, Status::done);
@@ -329,13 +330,13 @@ TEST(CamFollower, MayDriveItsCam) {
 }
 
 TEST(CamFollower, SaysWhyThereIsNone) {
-  Linkage l = follower_of(roller_cam(), lift_programme());
+  Linkage l = linkage_with(roller_cam(), lift_and_back());
   l.cams[0].base_radius = 0.001, l.cams[0].roller_radius = 0.001;
   EXPECT_THAT(
       planning_problems(l).at(0),
       HasSubstr("the follower of cam 'cam' does not come to its base circle of 1 mm with a roller of 1 "
                 "mm"));
-  l = follower_of(roller_cam(), lift_programme());
+  l = linkage_with(roller_cam(), lift_and_back());
   add_drive(l, "guide");
   EXPECT_THAT(planning_problems(l).at(0), HasSubstr("two drives on one degree of freedom"));
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/study/write.h"
 #include "planar/simulations.h"
 #include "planar/studies.h"
 
@@ -17,10 +18,10 @@ namespace {
 using namespace linkwright::planar::test;
 using testing::HasSubstr;
 
-constexpr double degree = pi / 180;
+constexpr double one_degree = pi / 180;
 
 // A tappet of 1.8 kg under a spring of 15 N/mm with 37.5 N, on a roller, with 1000 rpm; the guide in line.
-std::string tappet(const std::string& form = "outside", double gravity = 0) {
+std::string tappet_study(const std::string& form = "outside", double gravity = 0) {
   return R"(
 schema = 1
 kind   = "analysis"
@@ -104,7 +105,7 @@ samples  = 721
 )";
 }
 // The spring pulls the tappet down: 150 mm above it is free at 2.5 mm above the base circle.
-const std::string spring = R"(
+const std::string tappet_spring = R"(
 [[mechanism.strut]]
 name        = "spring"
 first       = "frame.S"
@@ -115,7 +116,7 @@ force_table_N = [787.5, -712.5]
 )";
 
 TEST(LinkageCams, ClassicExerciseHasThePublishedFigures) {
-  const study::Result r = run_text(tappet() + spring);
+  const study::Result r = run_text(tappet_study() + tappet_spring);
   ASSERT_EQ(r.status, Status::done);
   const Table& sweep = r.tables[0];
   EXPECT_NEAR(sweep.find("shaft_drive_torque_N_m")->values[200], -0.1472694443441289, 1e-12);
@@ -133,19 +134,70 @@ TEST(LinkageCams, ClassicExerciseHasThePublishedFigures) {
 
 // Weight holds the lower flank in the dwells; signs of the acceleration and of the weight decide elsewhere.
 TEST(LinkageCams, FlanksOfAGrooveChangeWherePublished) {
-  const study::Result r = run_text(tappet("groove", 9.81));
+  const study::Result r = run_text(tappet_study("groove", 9.81));
   EXPECT_EQ(fact(r, "changes of the flank of lift"), "61.1935°, 118.806°, 181.194°, 238.806°");
 }
 
+// Segments with conditions, a table, a flat face, a lever that turns.
 TEST(LinkageCams, AStudyReadsBackAsItIsWritten) {
-  std::string messages;
-  const auto study = prepare(tappet() + spring, messages);
-  ASSERT_TRUE(study) << messages;
-  EXPECT_EQ(messages, "");
+  const std::string lever = replaced(
+      replaced(replaced(replaced(tappet_study(), "points_mm = { O = [0, 0], S = [0, 100] }",
+                                 "points_mm = { O = [0, 0], P = [90, 0] }"),
+                        "points_mm     = { R = [0, 0] }", "points_mm     = { P = [0, 0], R = [60, 0] }"),
+               "type          = \"prismatic\"\nfirst         = \"frame.O\"\nsecond        = \"tappet.R\"\n"
+               "direction_deg = 90",
+               "first = \"frame.P\"\nsecond = \"tappet.P\""),
+      "to_mm    = 10", "to_deg   = 10");
+  const std::string turning = replaced(lever, "to_mm    = 0", "to_deg   = 0");
+  const std::string table =
+      R"(table = { angles_deg = [0, 90, 180, 270, 360], values_mm = [0, 4, 10, 3, 0] })";
+  std::string tabled = tappet_study();
+  tabled.erase(tabled.find("[[mechanism.cam.segment]]"),
+               tabled.find("[environment]") - tabled.find("[[mechanism.cam.segment]]"));
+  tabled = replaced(tabled, "form             = \"outside\"", table);
+  const std::string flat = replaced(
+      replaced(tappet_study(), "roller_radius_mm = 10", "follower = \"flat\"\nsense = \"clockwise\""),
+      "base_radius_mm   = 40", "base_radius_mm   = 40\nface_direction_deg = 90\nphase_deg = 15");
+  for (const std::string& text :
+       {tappet_study() + tappet_spring, tappet_study("groove"), turning, tabled, flat}) {
+    std::string messages;
+    const auto first = prepare(text, messages);
+    ASSERT_TRUE(first) << messages << text;
+    const auto second = prepare(study::to_toml(first->canonical), messages);
+    ASSERT_TRUE(second) << messages;
+    EXPECT_EQ(messages, "");
+    EXPECT_EQ(first->canonical, second->canonical);
+    const study::Result r = run_text(text);
+    EXPECT_EQ(r.status, Status::done);
+    ASSERT_TRUE(r.table("cam_lift"));
+    EXPECT_GT(r.scenes.at(0).bodies.size(), 2u);
+  }
+}
+
+// The law of the shaft is over time, and the cam follows it.
+TEST(LinkageCams, FollowsADriveOverTime) {
+  std::string text = tappet_study();
+  text.erase(text.find("[drive]"));
+  text += R"([drive]
+joint = "shaft"
+law = "constant_speed"
+speed_rpm = 60
+
+[sweep]
+type = "time"
+
+[sweep.time]
+to_s = 1
+samples = 13
+)";
+  const study::Result r = run_text(text);
+  ASSERT_EQ(r.status, Status::done);
+  // 40 and 10 mm of base circle and roller, and half of the rise after a sixth of the turn.
+  EXPECT_NEAR(r.tables[0].find("tappet_y_m")->values[2], 0.055, 1e-14);
 }
 
 TEST(LinkageCams, MessagesSayWhatToMend) {
-  const std::string all = tappet();
+  const std::string all = tappet_study();
   const auto problem = [&](const std::string& from, const std::string& to) {
     return problems_of(replaced(all, from, to));
   };
@@ -183,10 +235,10 @@ TEST(LinkageCams, ShaftRunsFreely) {
                     .contact = {2, 0},
                     .roller_radius = 0.01,
                     .base_radius = base - 0.01,
-                    .programme = {.segments = {{CamLaw::cycloidal, 120 * degree, 0.012, {}},
-                                               {CamLaw::dwell, 60 * degree, 0, {}},
-                                               {CamLaw::polynomial_345, 120 * degree, 0, {}},
-                                               {CamLaw::dwell, 60 * degree, 0, {}}}}});
+                    .programme = {.segments = {{CamLaw::cycloidal, 120 * one_degree, 0.012, {}},
+                                               {CamLaw::dwell, 60 * one_degree, 0, {}},
+                                               {CamLaw::polynomial_345, 120 * one_degree, 0, {}},
+                                               {CamLaw::dwell, 60 * one_degree, 0, {}}}}});
   // A spring from the axis, which is drawn longer by its preload.
   l.springs.push_back({"spring", {0, 0}, {2, 0}, stiffness, base - preload, 0});
   add_drive(l, "shaft");
@@ -204,9 +256,9 @@ TEST(LinkageCams, ShaftRunsFreely) {
     const double stored = stiffness / 2 * (std::pow(m.value + preload, 2) - preload * preload);
     return std::sqrt((0.02 * 900 - 2 * stored) / (0.02 + 0.8 * m.rate * m.rate));
   };
-  EXPECT_NEAR(speed(60 * degree), 29.499646270038756, 1e-12);
-  EXPECT_NEAR(speed(150 * degree), 28.774989139876315, 1e-12);
-  EXPECT_NEAR(speed(240 * degree), 29.508983214621214, 1e-12);
+  EXPECT_NEAR(speed(60 * one_degree), 29.499646270038756, 1e-12);
+  EXPECT_NEAR(speed(150 * one_degree), 28.774989139876315, 1e-12);
+  EXPECT_NEAR(speed(240 * one_degree), 29.508983214621214, 1e-12);
   LinkageMotion motion(plan);
   LinkageForces forces;
   double least = infinity;
