@@ -57,6 +57,29 @@ TEST(DryFriction, AnEffortOfItsOwnNeedsNoLoad) {
   EXPECT_NEAR(run.rows.back().friction_loss, 5.886 * run.rows.back().inputs[0].value, 1e-9);
 }
 
+// A clutch of 6 N m between discs of 0.2 and 0.3 kg m2, the first at 100 rad/s: it locks after 2 s at 40
+// rad/s and has taken 600 J. From then on it carries nothing.
+TEST(DryFriction, AClutchLocks) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_body(l, "motor", {{"A", {0, 0}}});
+  add_body(l, "disc", {{"B", {0, 0}}});
+  l.bodies[1].mass = BodyMass{1, 0.2, 0};
+  l.bodies[2].mass = BodyMass{1, 0.3, 0};
+  add_pin(l, "shaft", "ground.O", "motor.A");
+  add_pin(l, "clutch", "motor.A", "disc.B");
+  l.joints[1].friction_effort = 6;
+  add_drive(l, "shaft");
+  add_drive(l, "clutch");
+  const SimulationRun run = simulated(l, planned(l), {{{}, 0, 100}, {{}, 0, -100}}, {0, 1, 3});
+  ASSERT_EQ(run.report.status, Status::done) << to_string(run.report.message);
+  EXPECT_EQ(events_of(l, run.report), "clutch sticks");
+  EXPECT_NEAR(time_of(run.report, 0), 2, 1e-10);
+  EXPECT_NEAR(run.rows[2].inputs[0].rate, 40, 1e-9);
+  EXPECT_EQ(run.rows[2].inputs[1].rate, 0);
+  EXPECT_NEAR(run.rows[2].friction_loss, 600, 1e-8);
+  EXPECT_NEAR(run.rows[2].inputs[0].acceleration, 0, 1e-12);
+}
+
 // Two blocks, 1 kg below on the ground (0.1) and 2 kg above (0.3), a force of 4 N/s on the upper one.
 TEST(DryFriction, TwoBlocksStickAndSlideInTurn) {
   Linkage l = grounded({{"O", {0, 0}}});

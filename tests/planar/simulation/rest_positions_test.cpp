@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -44,6 +45,43 @@ void expect_rows(const RestPositions& found, const Value& rows, double frequency
       EXPECT_NEAR(p.frequency(), row.back().as_number(), frequency_tolerance);
     } else {
       EXPECT_TRUE(std::isnan(p.frequency()));
+    }
+  }
+}
+
+// A toggle clamp, 40 and 60 mm: a work piece presses its crank onto a stop 3 degrees past the dead centre.
+TEST(RestPositions, AToggleClampStandsOnItsStop) {
+  for (const double side : {1.0, -1.0}) {
+    Linkage l = grounded({{"O", 0}});
+    l.bodies.push_back({.name = "crank", .points = {{"O", 0}, {"A", 0.04}}});
+    l.bodies.push_back({.name = "rod", .points = {{"A", 0}, {"B", 0.06}}});
+    l.bodies.push_back({.name = "plunger", .points = {{"B", 0}}});
+    for (std::size_t b = 1; b < 4; ++b) l.bodies[b].mass = BodyMass{};
+    l.joints.push_back({.name = "O", .first = {0, 0}, .second = {1, 0}});
+    l.joints.push_back({.name = "A", .first = {1, 1}, .second = {2, 0}});
+    l.joints.push_back({.name = "B", .first = {2, 1}, .second = {3, 0}});
+    l.joints.push_back({.name = "guide", .type = JointType::prismatic, .first = {0, 0}, .second = {3, 0}});
+    l.driven = {0};
+    set_mode(l, "rod", "plunger", AssemblyMode::plus);
+    l.forces.push_back({.name = "work piece", .point = {3, 0}, .force = -800});
+    l.stops.push_back({.joint = 0, .limit = side * math::radians(3), .side = -side, .arm = 0.03});
+    const LinkagePlan plan = planned(l);
+    const RestPositions found = rest_positions(l, plan, {.inputs = {0}, .range = {{-0.5, 0.5}}});
+    const auto on_stop = std::find_if(found.positions.begin(), found.positions.end(),
+                                      [](const RestPosition& p) { return p.stop >= 0; });
+    ASSERT_NE(on_stop, found.positions.end());
+    EXPECT_EQ(on_stop->kind, RestKind::at_end);
+    EXPECT_EQ(on_stop->value, side * math::radians(3));
+    EXPECT_NEAR(on_stop->stop_effort, 2.7904001530881977, 1e-11);
+    EXPECT_NEAR(on_stop->stop_effort / l.stops[0].arm, 93.01333843627326, 1e-9);
+    // The same by a stop of the plunger, 0.09135 mm below its dead centre: 800 N.
+    l.stops[0] = {.joint = 3, .limit = 0.1 - 9.135042881022737e-05};
+    const RestPositions other =
+        rest_positions(l, plan_linkage(l).plan, {.inputs = {0}, .range = {{-0.5, 0.5}}});
+    ASSERT_EQ(other.positions.size(), 3u);  // on it at either side, and unstable at the dead centre
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+      EXPECT_NEAR(std::abs(other.positions[i].value), math::radians(3), 1e-9);
+      EXPECT_NEAR(other.positions[i].stop_effort, 800, 1e-8);
     }
   }
 }

@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "linkwright/core/memory.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
 
@@ -19,6 +21,7 @@ using test::problems_of;
 using test::replaced;
 using test::run_text;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -50,6 +53,57 @@ TEST(LinkageSimulationStudy, ReportsMotionForcesAndTheEnergyAudit) {
     for (const std::string& y : p.y) EXPECT_TRUE(t.find(y)) << y;
   }
   EXPECT_TRUE(audit);
+}
+
+// The pendulum of the template with a stop at its elbow.
+std::string stopped_pendulum(const std::string& stop) {
+  return replaced(pendulum(), "[simulation]",
+                  "[[mechanism.stop]]\njoint = \"A\"\n" + stop + "\n[simulation]");
+}
+
+TEST(LinkageSimulationStudy, TablesWhatHappensAtStops) {
+  const std::string text = stopped_pendulum("at_most_deg = 110.0\nat_least_deg = 30.0\nrestitution = 0.5");
+  const study::Result r = run_text(text);
+  ASSERT_EQ(r.status, Status::done) << to_string(r.headline);
+  const auto found =
+      std::find_if(r.tables.begin(), r.tables.end(), [](const Table& t) { return t.name == "stops"; });
+  ASSERT_NE(found, r.tables.end());
+  ASSERT_FALSE(found->names.empty());
+  EXPECT_THAT(found->names, Each(AnyOf(HasSubstr("A lower stop"), HasSubstr("A upper stop"))));
+  for (const double a : r.tables[0].find("A_angle_rad")->values) {
+    EXPECT_LT(a, 110.0001 * pi / 180);
+    EXPECT_GT(a, 29.9999 * pi / 180);
+  }
+  EXPECT_TRUE(r.tables[0].find("A_lower_stop_torque_N_m"));
+  EXPECT_THAT(fact(r, "changes of stops"), HasSubstr("the first: A"));
+  for (const double d : r.tables[0].find("energy_drift_J")->values) EXPECT_NEAR(d, 0, 1e-7);
+  // The canonical study has one entry a stop and means the same.
+  std::string messages;
+  const auto first = prepare(text, messages);
+  ASSERT_TRUE(first) << messages;
+  const auto second = prepare(study::to_toml(first->canonical), messages);
+  ASSERT_TRUE(second) << messages;
+  EXPECT_EQ(first->canonical, second->canonical);
+}
+
+TEST(LinkageSimulationStudy, RefusesStopsThatAreNone) {
+  const auto problems = [](const std::string& stop) { return problems_of(stopped_pendulum(stop)); };
+  EXPECT_THAT(problems(""), HasSubstr("the stop of joint 'A' has no place"));
+  EXPECT_THAT(problems("at_least_mm = 3.0"), HasSubstr("joint 'A' turns, and its stop is at a length"));
+  EXPECT_THAT(problems("at_least_deg = 3.0\nstiffness_N_per_m = 1e4"),
+              HasSubstr("the stop of 'A' has no arm on which its stiffness acts"));
+  EXPECT_THAT(problems("at_least_deg = 3.0\nstiffness_N_m_per_rad = 1e4\nrestitution = 0.5"),
+              HasSubstr("has a stiffness and a restitution"));
+  EXPECT_THAT(problems("at_least_deg = 3.0\ndamping_N_m_s_per_rad = 1.0"),
+              HasSubstr("has a damping but no stiffness"));
+  EXPECT_THAT(problems("at_least_deg = 3.0\nat_most_deg = 1.0"),
+              HasSubstr("its lower stop is not below its upper one"));
+  EXPECT_THAT(problems_of(replaced(stopped_pendulum("at_least_deg = -60.0"), "joint = \"A\"\nat",
+                                   "joint = \"Z\"\nat")),
+              HasSubstr("there is no joint 'Z'"));
+  EXPECT_THAT(problems_of(replaced(stopped_pendulum("at_least_deg = -60.0"), "[simulation]",
+                                   "[simulation]\nroute = \"all_coordinates\"")),
+              HasSubstr("all_coordinates do not take stops"));
 }
 
 TEST(LinkageSimulationStudy, HeadlineGivesTimeAndValuesOfOneInstant) {
@@ -359,7 +413,7 @@ samples = 201
 
 TEST(LinkageSimulationStudy, ExamplesPassTheirChecks) {
   for (const char* name : {"andrews-squeezer", "four-bar-chain-2", "four-bar-chain-40", "double-pendulum",
-                           "stick-slip-oscillator"}) {
+                           "stick-slip-oscillator", "toggle-clamp-stop"}) {
     SCOPED_TRACE(name);
     const auto study = test::prepare_example(test::kinds(), std::string(name) + ".toml");
     ASSERT_TRUE(study);

@@ -14,6 +14,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/screw.h"
+#include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
@@ -301,6 +302,31 @@ void add_strut_columns(std::vector<LinkageColumn>& out, const Linkage& l, const 
   }
 }
 
+// The efforts of stops. Where a drive prescribes the position, a rigid stop on which its joint stands can
+// carry what the drive pushes with.
+void add_stop_columns(std::vector<LinkageColumn>& out, const Linkage& l, const LinkagePlan& plan) {
+  for (std::size_t k = 0; k < l.stops.size(); ++k) {
+    const JointStop& s = l.stops[k];
+    const bool pin = l.joints[at(s.joint)].type == JointType::revolute;
+    const auto effort = [&l, &plan, &s, k, pin](const LinkageInstant& i) {
+      if (s.stiffness || !i.motion->stops.empty()) return stop_effort(l, plan, *i.motion, k);
+      constexpr double near = 1e-9;  // rad, and sizes of the linkage
+      const double gap = stop_motion(l, plan, *i.motion, k).gap / (pin ? 1 : plan.size);
+      const auto input = std::find(l.driven.begin(), l.driven.end(), s.joint);
+      if (!(std::abs(gap) <= near) || input == l.driven.end()) return 0.0;
+      return std::max(0.0, s.side * i.forces->drives[static_cast<std::size_t>(input - l.driven.begin())]);
+    };
+    const std::string name = stop_name(l, k);
+    add_column(out,
+               {identifier(name) + (pin ? "_torque" : "_force"), name + (pin ? " torque" : " force"),
+                pin ? Dimension::torque : Dimension::force},
+               effort);
+    if (s.arm > 0)
+      add_column(out, {identifier(name) + "_force", name + " force", Dimension::force},
+                 [effort, arm = s.arm](const LinkageInstant& i) { return effort(i) / arm; });
+  }
+}
+
 }  // namespace
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
@@ -360,6 +386,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
                      [k](const LinkageInstant& i) { return i.forces->drives[k]; }});
     }
   const auto forces = [](const LinkageInstant& i) -> const LinkageForces& { return *i.forces; };
+  if (q.drive) add_stop_columns(out, l, plan);
   if (q.shaking) {
     add_columns(out, column_rows::shaking_forces, "", "", forces);
     add_columns(out, column_rows::shaking_moments, "", "shaking moment about " + moment_centre_name(l) + ", ",

@@ -101,8 +101,9 @@ double lasting_power(const Linkage& l, const LinkagePlan& plan, const LinkageMot
 
 AccelerationRoute cheaper_route(const Linkage& linkage, const LinkagePlan& plan, std::size_t free) {
   const bool friction = std::any_of(linkage.joints.begin(), linkage.joints.end(), has_friction);
-  return free < many_inputs || friction || !LinkageElimination::takes(plan) ? AccelerationRoute::mass_matrix
-                                                                            : AccelerationRoute::joint_forces;
+  return free < many_inputs || friction || !linkage.stops.empty() || !LinkageElimination::takes(plan)
+             ? AccelerationRoute::mass_matrix
+             : AccelerationRoute::joint_forces;
 }
 
 LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan, std::vector<bool> free,
@@ -123,7 +124,8 @@ LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan
   damped_ = std::any_of(linkage.springs.begin(), linkage.springs.end(), damped) ||
             std::any_of(linkage.torsion_springs.begin(), linkage.torsion_springs.end(), damped) ||
             !linkage.struts.empty();
-  lasting_ = friction_ || damped_ || !linkage.forces.empty() || !linkage.torques.empty();
+  lasting_ =
+      friction_ || damped_ || !linkage.forces.empty() || !linkage.torques.empty() || !linkage.stops.empty();
   unit_.resize(free.size());
   bias_.resize(free.size());
   unit_rates_.resize(free.size() * plan.parts.size());

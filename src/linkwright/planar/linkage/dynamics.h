@@ -27,7 +27,7 @@ double lasting_power(const Linkage& linkage, const LinkagePlan& plan, const Link
 /// joint forces of all parts (LinkageElimination), which many free inputs make cheaper.
 enum class AccelerationRoute { mass_matrix, joint_forces };
 /// The cheaper one where there is a choice: joint_forces from 9 free inputs on, and neither for gears nor for
-/// friction.
+/// friction or stops.
 AccelerationRoute cheaper_route(const Linkage& linkage, const LinkagePlan& plan, std::size_t free);
 
 /// Equations of motion of a linkage in the coordinates of its free inputs: inputs that no drive prescribes,

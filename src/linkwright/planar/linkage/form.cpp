@@ -539,6 +539,23 @@ StrutForm form_of(const Strut& s, std::string first, std::string second, bool ro
   return f;
 }
 
+StopForm form_of(const Linkage& l, const JointStop& s) {
+  const LinkageJoint& joint = l.joints[static_cast<std::size_t>(s.joint)];
+  const bool pin = joint.type == JointType::revolute;
+  StopForm f{.joint = joint.name};
+  (s.side > 0 ? pin ? f.at_least_angle : f.at_least_length
+   : pin      ? f.at_most_angle
+              : f.at_most_length) = s.limit;
+  if (s.arm > 0) f.arm = s.arm;
+  if (s.stiffness) {
+    (pin ? f.stiffness_angular : f.stiffness) = s.stiffness;
+    (pin ? f.damping_angular : f.damping) = s.damping;
+  } else {
+    f.restitution = s.restitution;
+  }
+  return f;
+}
+
 // Friction at rest, of falling curves and without load.
 void set_friction(LinkageJoint& j, const JointForm& f, Names& names) {
   if (f.friction_torque && j.type != JointType::revolute)
@@ -759,7 +776,54 @@ CamMemberForm form_of(const LinkageCam& c, const Linkage& l, std::string contact
   return f;
 }
 
-// Springs, forces, torques and struts.
+// The stops of one entry: a lower one, an upper one, or both.
+void add_stops(const StopForm& f, Linkage& l, Names& names) {
+  const int joint = joint_named(l, "joint", f.joint, names);
+  if (joint < 0) return;
+  const bool pin = l.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
+  const auto &least = pin ? f.at_least_angle : f.at_least_length,
+             &most = pin ? f.at_most_angle : f.at_most_length;
+  if (pin ? f.at_least_length || f.at_most_length : f.at_least_angle || f.at_most_angle)
+    return names.problem(
+        "joint",
+        fmt::format("joint '{}' {}", f.joint,
+                    pin ? "turns, and its stop is at a length" : "slides, and its stop is at an angle"),
+        pin ? "write at_least_deg or at_most_deg" : "write at_least_mm or at_most_mm");
+  if (!least && !most)
+    return names.problem("joint", fmt::format("the stop of joint '{}' has no place", f.joint),
+                         pin ? "write at_least_deg or at_most_deg" : "write at_least_mm or at_most_mm");
+  if (f.arm && !pin)
+    return names.problem("arm_mm", fmt::format("joint '{}' slides, and its stop has an arm", f.joint),
+                         "leave the arm out");
+  if (pin && !f.arm && (f.stiffness || f.damping))
+    return names.problem("stiffness_N_per_m",
+                         fmt::format("the stop of '{}' has no arm on which its stiffness acts", f.joint),
+                         "give arm_mm, or stiffness_N_m_per_rad");
+  if (!pin && (f.stiffness_angular || f.damping_angular))
+    return names.problem("stiffness_N_m_per_rad",
+                         fmt::format("joint '{}' slides, and its stop has a stiffness of a turn", f.joint),
+                         "write stiffness_N_per_m");
+  const double square = pin ? f.arm.value_or(0) * f.arm.value_or(0) : 1;
+  JointStop stop{.joint = joint, .restitution = f.restitution.value_or(0), .arm = f.arm.value_or(0)};
+  if (f.stiffness) stop.stiffness = *f.stiffness * square;
+  if (f.stiffness_angular) stop.stiffness = *f.stiffness_angular;
+  stop.damping = f.damping.value_or(0) * square + f.damping_angular.value_or(0);
+  if (stop.stiffness && f.restitution)
+    return names.problem("restitution",
+                         fmt::format("the stop of '{}' has a stiffness and a restitution", f.joint),
+                         "a rigid stop has a restitution, one that gives way has a damping: leave one");
+  if (!stop.stiffness && stop.damping > 0)
+    return names.problem("damping", fmt::format("the stop of '{}' has a damping but no stiffness", f.joint),
+                         "give the stiffness, or the restitution of a rigid stop");
+  for (const double side : {1.0, -1.0}) {
+    const auto& limit = side > 0 ? least : most;
+    if (!limit) continue;
+    stop.limit = *limit, stop.side = side;
+    l.stops.push_back(stop);
+  }
+}
+
+// Springs, forces, torques, struts and stops.
 void add_loads(const LinkageForm& form, Linkage& l, Names& names) {
   for (std::size_t i = 0; i < form.springs.size(); ++i) {
     const SpringForm& s = form.springs[i];
@@ -789,6 +853,10 @@ void add_loads(const LinkageForm& form, Linkage& l, Names& names) {
   for (std::size_t i = 0; i < form.struts.size(); ++i) {
     names.at("strut", i);
     l.struts.push_back(strut_of(form.struts[i], names));
+  }
+  for (std::size_t i = 0; i < form.stops.size(); ++i) {
+    names.at("stop", i);
+    add_stops(form.stops[i], l, names);
   }
 }
 
@@ -920,6 +988,7 @@ LinkageForm form_of(const Linkage& l) {
   const bool rotary =
       !l.driven.empty() && l.joints[static_cast<std::size_t>(l.driven[0])].type == JointType::revolute;
   for (const Strut& s : l.struts) form.struts.push_back(form_of(s, point(s.first), point(s.second), rotary));
+  for (const JointStop& s : l.stops) form.stops.push_back(form_of(l, s));
   return form;
 }
 

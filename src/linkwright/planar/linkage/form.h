@@ -180,6 +180,11 @@ struct CamMemberForm {
   std::vector<CamSegmentForm> segments;
   std::optional<CamTableForm> table;
 };
+struct StopForm {
+  std::string joint;
+  std::optional<double> at_least_angle, at_least_length, at_most_angle, at_most_length;
+  std::optional<double> restitution, stiffness, stiffness_angular, damping, damping_angular, arm;
+};
 struct LinkageForm {
   /// The points of all bodies are given where they are in one drawn position, in the global frame: body
   /// frames coincide with it there, and the drawing gives the assembly modes.
@@ -195,6 +200,7 @@ struct LinkageForm {
   std::vector<BeltForm> belts;
   std::vector<StrutForm> struts;
   std::vector<CamMemberForm> cams;
+  std::vector<StopForm> stops;
 };
 
 /// A problem of one entry of a form: list "joint", its index, the key in it.
@@ -567,6 +573,38 @@ void fields(Visitor&& visit, CamMemberForm& c) {
   visit(field::entry("table", "programme as a smooth curve through rows, instead of segments"), c.table);
 }
 template <class Visitor>
+void fields(Visitor&& visit, StopForm& s) {
+  visit(field::entry("joint", "pin, slide or slot that it stops").required(), s.joint);
+  constexpr Field least_angle = field::angle("at_least", "pin: angle that it cannot fall below"),
+                  least_length = field::length("at_least", "slide, slot: displacement likewise"),
+                  most_angle = field::angle("at_most", "pin: angle that it cannot exceed"),
+                  most_length = field::length("at_most", "slide, slot: displacement likewise"),
+                  stiffness = field::stiffness("stiffness",
+                                               "of a stop that gives way; of a pin at `arm`. If absent it is "
+                                               "rigid")
+                                  .positive(),
+                  stiffness_angular =
+                      field::stiffness_angular("stiffness", "of a stop of a pin that gives way").positive(),
+                  damping = field::damping("damping", "beside the stiffness").not_negative(),
+                  damping_angular =
+                      field::damping_angular("damping", "of a pin, beside the stiffness").not_negative();
+  told_apart_by_unit(visit, {least_angle, least_length, most_angle, most_length, stiffness, stiffness_angular,
+                             damping, damping_angular});
+  visit(least_angle, s.at_least_angle);
+  visit(least_length, s.at_least_length);
+  visit(most_angle, s.at_most_angle);
+  visit(most_length, s.at_most_length);
+  visit(field::entry("restitution",
+                     "rigid stop: speed after an impact by that before; if absent 0, it stays on the stop")
+            .between(0, 1),
+        s.restitution);
+  visit(stiffness, s.stiffness);
+  visit(stiffness_angular, s.stiffness_angular);
+  visit(damping, s.damping);
+  visit(damping_angular, s.damping_angular);
+  visit(field::length("arm", "pin: distance of the stop from its axis, for its force").positive(), s.arm);
+}
+template <class Visitor>
 void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("drawn", "points are given in one drawn position, in the global frame"), l.drawn);
   visit(field::length("moment_centre", "shaking moments are about this place of the ground"),
@@ -581,6 +619,7 @@ void fields(Visitor&& visit, LinkageForm& l) {
   visit(field::entry("belt", "belts, chains and ropes"), l.belts);
   visit(field::entry("strut", "forces between two points: gas springs, cylinders, tables"), l.struts);
   visit(field::entry("cam", "cams with their followers"), l.cams);
+  visit(field::entry("stop", "stops of joints, rigid or with a stiffness"), l.stops);
 }
 
 }  // namespace linkwright::planar

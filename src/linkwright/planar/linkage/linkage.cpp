@@ -292,6 +292,34 @@ class Checker {
       factor(key, t.factor);
     }
     for (const Strut& s : l_.struts) strut(s);
+    stops();
+  }
+  void stops() {
+    for (std::size_t k = 0; k < l_.stops.size(); ++k) {
+      const JointStop& s = l_.stops[k];
+      if (s.joint < 0 || s.joint >= static_cast<int>(l_.joints.size())) {
+        error("stop", "refers to a joint that does not exist", {});
+        continue;
+      }
+      const LinkageJoint& j = l_.joints[static_cast<std::size_t>(s.joint)];
+      const std::string key = "joint." + j.name;
+      if (j.type != JointType::revolute && j.type != JointType::prismatic && j.type != JointType::pin_in_slot)
+        error(key, fmt::format("it is a {} joint and has a stop", name_of(j.type)),
+              "pins, slides and slots have stops");
+      if (!(std::abs(s.side) == 1 && s.restitution >= 0 && s.restitution <= 1 && s.damping >= 0 &&
+            s.arm >= 0 && std::isfinite(s.limit + s.damping + s.arm)) ||
+          (s.stiffness && !(*s.stiffness > 0 && std::isfinite(*s.stiffness))))
+        error(key, "the numbers of its stop are out of range",
+              "restitution is 0 to 1, the stiffness positive, the others finite and not negative");
+      for (std::size_t i = 0; i < k; ++i) {
+        const JointStop& other = l_.stops[i];
+        if (other.joint != s.joint) continue;
+        if (other.side == s.side)
+          error(key, fmt::format("it has two {} stops", s.side > 0 ? "lower" : "upper"), "leave one");
+        else if (!((s.limit - other.limit) * s.side < 0))
+          error(key, "its lower stop is not below its upper one", "exchange at_least and at_most");
+      }
+    }
   }
   void strut(const Strut& s) {
     const std::string key = "strut." + s.name;
@@ -333,7 +361,7 @@ class Checker {
     const double small = 1e-9 * size_of(l_);
     for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
       std::vector<std::pair<std::complex<double>, const LinkageJoint*>> pins;
-      bool other = false;
+      bool other = false, all_driven = true;  // shafts on one axis, with a clutch between them
       for (const LinkageJoint& j : l_.joints)
         for (const BodyPoint& end : {j.first, j.second})
           if (end.body == b) {
@@ -341,8 +369,10 @@ class Checker {
               pins.emplace_back(at(end), &j);
             else
               other = true;
+            all_driven = all_driven && std::find(l_.driven.begin(), l_.driven.end(),
+                                                 static_cast<int>(&j - l_.joints.data())) != l_.driven.end();
           }
-      if (other || pins.size() < 2) continue;
+      if (other || all_driven || pins.size() < 2) continue;
       if (std::all_of(pins.begin(), pins.end(),
                       [&](const auto& p) { return std::abs(p.first - pins[0].first) <= small; }))
         error("body." + name(b),
@@ -404,6 +434,12 @@ std::string first_rolling_pair(const Linkage& linkage) {
   }
   if (!linkage.cams.empty()) return fmt::format("cam '{}'", linkage.cams[0].name);
   return linkage.belts.empty() ? std::string() : fmt::format("belt '{}'", linkage.belts[0].name);
+}
+
+std::string stop_name(const Linkage& linkage, std::size_t stop) {
+  const JointStop& s = linkage.stops[stop];
+  return linkage.joints[static_cast<std::size_t>(s.joint)].name +
+         (s.side > 0 ? " lower stop" : " upper stop");
 }
 
 Diagnostics check(const Linkage& linkage) { return Checker(linkage).run(); }

@@ -340,6 +340,19 @@ struct Strut {
   std::optional<Cylinder> cylinder = {};  ///< law of a cylinder instead
 };
 
+/// A stop of a pin, slide or slot: its coordinate cannot pass a value. Rigid, it throws the joint back with a
+/// share of its speed; with a stiffness it gives way. Its effort is 0 or pushes the joint back.
+struct JointStop {
+  int joint = 0;           ///< index of the joint
+  double limit = 0;        ///< value of the coordinate at the stop (rad or m)
+  double side = 1;         ///< +1: the coordinate is the limit at least; -1: at most
+  double restitution = 0;  ///< speed after an impact by that before, 0 to 1; of a rigid stop
+  /// N m/rad or N/m, > 0, of a stop that gives way; nothing: it is rigid
+  std::optional<double> stiffness = {};
+  double damping = 0;  ///< N m s/rad or N s/m, >= 0, of a stop that gives way
+  double arm = 0;  ///< distance of the stop of a pin from its axis, where its force is asked for (m); 0: not
+};
+
 /// A wheel of a belt, or an end of a rope.
 struct BeltWheel {
   BodyPoint centre;   ///< centre of the wheel on the body that turns with it
@@ -410,6 +423,7 @@ struct Linkage {
   std::vector<Strut> struts;                   ///< forces between two points
   std::vector<Belt> belts;                     ///< belts, chains and ropes
   std::vector<LinkageCam> cams;                ///< cams with their followers
+  std::vector<JointStop> stops;                ///< stops of joints
   std::complex<double> gravity{0, -9.81};      ///< m/s2, acceleration of free fall
   std::complex<double> moment_centre;          ///< shaking moments are about this place, global (m)
 };
@@ -447,6 +461,13 @@ double size_of(const Linkage& linkage);
 /// @param linkage the linkage
 /// @returns its kind and name, as "rack 'teeth'"; empty if there is none
 std::string first_rolling_pair(const Linkage& linkage);
+
+/// The name of a stop in columns and messages.
+///
+/// @param linkage the linkage
+/// @param stop index of the stop
+/// @returns the name of its joint and its side, as "O lower stop"
+std::string stop_name(const Linkage& linkage, std::size_t stop);
 
 /// True if a joint has friction, by a coefficient or by an effort of its own.
 ///

@@ -89,7 +89,12 @@ class LinkageMotion {
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
   std::vector<double> modes;
   std::vector<GeneralGroupPointer> general;  ///< states of groups with a matrix, else null
-  std::vector<double> twists;  ///< rad, one a torsion spring, see PlanTwist; NaN before the first position
+  /// rad, one a torsion spring, then one a stop (0 of a slide), see PlanTwist; NaN before the first position
+  std::vector<double> twists;
+  /// Efforts of the rigid stops (N m or N, >= 0), one a stop, as those who solve for them leave them; of
+  /// stops that give way 1 where they are touched, else 0. The loads of the linkage have them. Empty: rigid
+  /// stops have none, and the others go by their gaps.
+  std::vector<double> stops;
   /// Angles with their turns (rad) of the parts that loops turn and gears follow, see DrivenAngle::shares;
   /// one a part, NaN before the first position and of other parts.
   std::vector<double> loop_angles;
@@ -278,8 +283,8 @@ struct LinkageForces {
 const JointReaction& joint_reaction(const Linkage& linkage, const LinkageForces& forces,
                                     std::string_view joint);
 
-/// Forces of springs, dampers, forces, torques and struts at the present motion, appended to `loads` in this
-/// order, two for each spring, torque and strut.
+/// Forces of springs, dampers, forces, torques, struts and stops at the present motion, appended to `loads`
+/// in this order, two for each spring, torque and strut.
 ///
 /// @param linkage the linkage
 /// @param plan its plan

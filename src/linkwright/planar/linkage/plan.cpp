@@ -46,10 +46,10 @@ int mobility(const Linkage& linkage) {
 }
 
 void find_twists(PlanDraft& d) {
-  for (const TorsionSpring& s : d.linkage.torsion_springs) {
-    const BodyOnPart &a = d.plan().bodies[at(s.first)], &b = d.plan().bodies[at(s.second)];
+  const auto add = [&](int first_body, int second_body, double free) {
+    const BodyOnPart &a = d.plan().bodies[at(first_body)], &b = d.plan().bodies[at(second_body)];
     PlanTwist twist{a.part, b.part, rotate_inverse(a.turn, b.turn)};
-    twist.free = s.free_angle;
+    twist.free = free;
     const auto &first = d.angles[at(a.part)], &second = d.angles[at(b.part)];
     if (first && second) {
       twist.counted = true;
@@ -58,6 +58,16 @@ void find_twists(PlanDraft& d) {
         twist.gains.push_back(second->gains[i] - first->gains[i]);
     }
     d.plan().twists.push_back(std::move(twist));
+  };
+  for (const TorsionSpring& s : d.linkage.torsion_springs) add(s.first, s.second, s.free_angle);
+  for (const JointStop& s : d.linkage.stops) {
+    const LinkageJoint& j = d.linkage.joints[at(s.joint)];
+    // The joint begins up to nearly a turn off its stop, on the side on which it can be.
+    constexpr double beyond = 0.1;
+    if (j.type == JointType::revolute)
+      add(j.first.body, j.second.body, s.limit + s.side * (pi - beyond));
+    else
+      d.plan().twists.push_back({.counted = true, .gains = {}});
   }
 }
 

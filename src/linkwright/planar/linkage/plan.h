@@ -306,7 +306,8 @@ struct PartMass {
   double inertia = 0;       ///< about the origin of the part, kg m2
 };
 
-/// The twist of a torsion spring: the angle of its second body from its first, with its turns.
+/// The twist of a torsion spring, or the angle of a pin with a stop: that of the second body from the first,
+/// with its turns.
 struct PlanTwist {
   int first = 0,   ///< part of the first body
       second = 0;  ///< part of the second body
@@ -350,7 +351,7 @@ struct LinkagePlan {
   std::vector<Group> groups;                       ///< in the order of the solution
   std::vector<int> group_of_part;                  ///< -1 of the ground
   std::vector<std::optional<DrivenAngle>> turned;  ///< one a part; nothing of those that loops turn
-  std::vector<PlanTwist> twists;                   ///< one a torsion spring
+  std::vector<PlanTwist> twists;                   ///< one a torsion spring, then one a stop
   std::vector<SharedPin> shared_pins;              ///< pins whose pairs differ from those of the model
   std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
   std::vector<int> redundant_gears;                ///< joints that repeat what other gears say

@@ -12,6 +12,7 @@
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
@@ -425,6 +426,7 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
     loads.push_back({s.first.body, span.first, -push * span.along, 0});
     loads.push_back({s.second.body, span.second, push * span.along, 0});
   }
+  for (std::size_t k = 0; k < l.stops.size(); ++k) add_stop_loads(l, plan, motion, k, loads);
 }
 
 const JointReaction& joint_reaction(const Linkage& linkage, const LinkageForces& forces,

@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/simulation/static_forces.h"
 
 namespace linkwright::planar {
@@ -20,8 +21,10 @@ constexpr double balance_rounding = 1e-12;
 // The forces along one range of the free input.
 class RestScan {
  public:
-  RestScan(const LinkagePlan& plan, const RestSearch& search, StaticForces& forces)
-      : forces_(forces),
+  RestScan(const Linkage& l, const LinkagePlan& plan, const RestSearch& search, StaticForces& forces)
+      : l_(l),
+        plan_(plan),
+        forces_(forces),
         free_(search.free),
         samples_(search.samples),
         is_given_(search.range.has_value()),
@@ -148,6 +151,16 @@ class RestScan {
       p.kind = RestKind::at_end;
       p.stiffness = nan;
       p.force = force(value);
+      // The stop that the joint stands on balances the force by virtual work.
+      constexpr double near = 1e-9;  // rad, and sizes of the linkage
+      for (std::size_t k = 0; k < l_.stops.size(); ++k) {
+        const bool pin = l_.joints[at(l_.stops[k].joint)].type == JointType::revolute;
+        const double gap = stop_motion(l_, plan_, forces_.motion, k).gap / (pin ? 1 : plan_.size);
+        const double effort = -p.force / forces_.stop_rates[k];
+        if (l_.stops[k].stiffness || !(std::abs(gap) <= near) || !(effort > 0)) continue;
+        p.stop = static_cast<int>(k);
+        p.stop_effort = effort;
+      }
     };
     if (piece.stop_below) add_end(piece.value.front(), -piece.force.front());
     if (piece.stop_above) add_end(piece.value.back(), piece.force.back());
@@ -176,6 +189,8 @@ class RestScan {
            (12 * h);
   }
 
+  const Linkage& l_;
+  const LinkagePlan& plan_;
   StaticForces& forces_;
   std::size_t free_;
   int samples_;
@@ -185,6 +200,23 @@ class RestScan {
   std::size_t range_ = 0;
   double low_ = 0, high_ = 0;
 };
+
+// The range of a search, cut to what rigid stops leave of the free joint; the range to one stop alone ends a
+// turn, or eight sizes of the linkage, off it.
+std::optional<std::array<double, 2>> between_stops(const Linkage& l, const LinkagePlan& plan,
+                                                   const RestSearch& search) {
+  double low = -infinity, high = infinity;
+  for (const JointStop& s : l.stops) {
+    if (s.joint != l.driven[search.free] || s.stiffness) continue;
+    (s.side > 0 ? low : high) = s.limit;
+  }
+  if (search.range) return {{std::max((*search.range)[0], low), std::min((*search.range)[1], high)}};
+  if (!std::isfinite(low) && !std::isfinite(high)) return std::nullopt;
+  const double reach = plan.rotary[search.free] ? full_turn : 8 * plan.size;
+  if (!std::isfinite(low)) low = high - reach;
+  if (!std::isfinite(high)) high = low + reach;
+  return {{low, high}};
+}
 
 }  // namespace
 
@@ -204,10 +236,15 @@ RestPositions rest_positions(const Linkage& linkage, const LinkagePlan& plan, co
   LINKWRIGHT_REQUIRE(plan.closed_form() || plan.inputs() == 1,
                      "rest positions of groups without closed form need one input, not {}", plan.inputs());
   const bool rotary = plan.rotary[search.free];
+  RestSearch asked = search;
+  asked.range = between_stops(linkage, plan, search);
   const double reach = rotary ? pi : 4 * plan.size;
-  const double from = search.range ? (*search.range)[0] : -reach,
-               to = search.range ? (*search.range)[1] : reach;
+  const double from = asked.range ? (*asked.range)[0] : -reach, to = asked.range ? (*asked.range)[1] : reach;
   RestPositions out;
+  if (!(from < to)) {
+    out.status = Status::no_assembly;
+    return out;
+  }
   std::vector<InputRange> ranges;
   std::optional<LinkageAssembly> assembly;
   if (plan.closed_form()) {
@@ -224,12 +261,12 @@ RestPositions rest_positions(const Linkage& linkage, const LinkagePlan& plan, co
       return !std::equal(r.modes.begin(), r.modes.end(), modes.begin(), modes.end());
     });
   if (ranges.empty()) out.status = Status::no_assembly;
-  RestScan scan(plan, search, forces);
+  RestScan scan(linkage, plan, asked, forces);
   for (const InputRange& range : ranges) {
     if (context && (out.status = context->interruption()) != Status::done) return out;
     scan.run(range, out);
   }
-  if (rotary && !search.range)
+  if (rotary && !asked.range)
     for (RestPosition& p : out.positions)
       if (out.ranges[p.range].full_turn) p.value = math::wrap_angle(p.value);
   return out;

@@ -17,7 +17,7 @@ enum class RestKind {
   stable,    ///< it returns: the stiffness is positive
   unstable,  ///< it leaves: the stiffness is negative
   marginal,  ///< the force touches zero without changing its sign: it leaves to one side
-  at_end,    ///< the force presses it outwards against the end of the range, or of the stroke of a gas spring
+  at_end,    ///< the force presses it outwards against the end of the range, of a stroke, or a stop
   flutter    ///< of several free inputs: small motions swing and grow
 };
 constexpr std::array<EnumName<RestKind>, 5> names(RestKind) {
@@ -38,6 +38,8 @@ struct RestPosition {
   double damping = 0;                ///< N m s/rad or N s/m
   double potential = 0;              ///< of weight, springs and struts, J
   std::size_t range = 0;             ///< index into RestPositions::ranges
+  int stop = -1;                     ///< index of the rigid stop that it is pressed on; -1: none
+  double stop_effort = 0;            ///< effort of that stop, N m or N
 
   /// Natural frequency without damping.
   ///
@@ -51,16 +53,16 @@ struct RestPosition {
 
 /// A range of the free input in which the linkage assembles, with the forces along it.
 struct RestRange {
-  double from = 0, to = 0;        ///< rad or m
-  bool full_turn = false;         ///< closes on itself
-  bool stop_below = false,        ///< the linkage cannot go beyond `from`: end of the range or of a stroke
-      stop_above = false;         ///< the same of `to`
-  bool dead_below = false,        ///< a dead point of the input ends it at `from`
-      dead_above = false;         ///< the same of `to`
-  bool balanced = false;          ///< the forces vanish everywhere: it rests anywhere
-  std::vector<double> modes;      ///< signs, one a group
-  std::vector<double> value;      ///< samples of the input, rad or m
-  std::vector<double> force;      ///< generalised force there, N m or N
+  double from = 0, to = 0;    ///< rad or m
+  bool full_turn = false;     ///< closes on itself
+  bool stop_below = false,    ///< the linkage cannot go beyond `from`: end of the range, of a stroke, stop
+      stop_above = false;     ///< the same of `to`
+  bool dead_below = false,    ///< a dead point of the input ends it at `from`
+      dead_above = false;     ///< the same of `to`
+  bool balanced = false;      ///< the forces vanish everywhere: it rests anywhere
+  std::vector<double> modes;  ///< signs, one a group
+  std::vector<double> value;  ///< samples of the input, rad or m
+  std::vector<double> force;  ///< generalised force there, N m or N
   std::vector<double> potential;  ///< energy of weight, springs and struts there, J
 };
 

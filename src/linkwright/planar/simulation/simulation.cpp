@@ -48,12 +48,15 @@ Simulation::Simulation(const Linkage& l, const LinkagePlan& plan, std::span<cons
     LINKWRIGHT_REQUIRE(std::isfinite(inputs_[k].value + inputs_[k].rate), "start {} with rate {}",
                        inputs_[k].value, inputs_[k].rate);
   friction_ = std::any_of(l.joints.begin(), l.joints.end(), has_friction);
+  contacts_.resize(l.stops.size());
 }
 
 SimulationReport Simulation::run(std::span<const double> times, const RunContext* context) {
   breaks_ = breaks_of(l_, drives_, times.front(), times.back());
+  span_ = times.back() - times.front();
   if (!start(times.front())) return std::move(report_);
   std::vector<double> y = state();
+  if (!contacts_.empty() && !start_stops(times.front(), y)) return std::move(report_);
   std::vector<double> tolerances;
   const auto free = dynamics_.free();
   for (const std::span<const double> coarser : {options_.value_resolution, options_.rate_resolution})
@@ -66,6 +69,8 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
   if (stops_at_changes()) events.resize(2, {.crossing = math::OdeCrossing::falling});
   for (std::size_t i = 0; i < rubbing_.size(); ++i)
     events.resize(events.size() + 2, {.crossing = math::OdeCrossing::either});
+  for (std::size_t k = 0; k < contacts_.size(); ++k)
+    events.push_back({.crossing = math::OdeCrossing::falling});
   first_watched_ = events.size();
   events.resize(first_watched_ + watch_.count);
   watched_.assign(watch_.count, 1);
@@ -82,6 +87,7 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
         values[i++] = std::min(above_ - now[0], 1.0);
       }
       if (friction_) friction_values(t, now, values.subspan(i, 2 * rubbing_.size()));
+      if (!contacts_.empty()) stop_values(t, now, values.subspan(first_stop_event(), contacts_.size()));
       // Beyond what can be placed they stay what they were.
       if (watch_.count > 0 && watched(t, now).status == Status::done) watch_.values(instant_, watched_);
       std::copy(watched_.begin(), watched_.end(),
@@ -91,9 +97,10 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
       return act(t, which, now);
     };
   }
-  if (friction_ && options_.method != math::OdeMethod::adams)
+  if ((friction_ || !contacts_.empty()) && options_.method != math::OdeMethod::adams)
     hooks.project = [&](double t, std::span<double> now) {
       if (any_sticks()) still(t, now);
+      if (any_closed()) hold_on_stops(t, now);
       return true;
     };
   if (stuck_) {  // from the start on
@@ -101,7 +108,6 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
     finish({.t = times.front()}, y);
     return std::move(report_);
   }
-  span_ = times.back() - times.front();
   const math::OdeReport ode = integrate_by_pieces(
       [&](double t, std::span<const double> now, std::span<double> rate) { return slope(t, now, rate); }, y,
       times.front(), times.back(), breaks_,
@@ -143,7 +149,7 @@ double Simulation::work_tolerance() const {
 
 Simulation::Answer Simulation::solve(double t) {
   if (!branch_) {
-    const Status status = dynamics_.solve(t, inputs_);
+    const Status status = solve_pressed(t);
     return {status == Status::done && changed_side() ? Status::branch_lost : status, dynamics_.power,
             first_inertia(), dynamics_.friction_power};
   }
@@ -151,10 +157,10 @@ Simulation::Answer Simulation::solve(double t) {
   if (branch_->has_change_points()) {
     const SmoothBranch::Near near = branch_->nearest(value);
     const double x = (value - near.value) / branch_->half_width();
-    if (std::abs(x) < 1) return interpolated(t, near.value, x);
+    if (std::abs(x) < 1 && !any_closed()) return interpolated(t, near.value, x);
     branch_->set_modes(value, dynamics_.motion);
   }
-  const Status status = dynamics_.solve(t, inputs_);
+  const Status status = solve_pressed(t);
   return {status, dynamics_.power, first_inertia(), dynamics_.friction_power};
 }
 
@@ -383,9 +389,14 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
   }
   std::vector<std::size_t> rubbed;
   for (const std::size_t event : which)
-    if (event >= first_friction_event() && event < first_watched_)
+    if (event >= first_friction_event() && event < first_stop_event())
       rubbed.push_back(event - first_friction_event());
+  std::vector<std::size_t> met;
+  for (const std::size_t event : which)
+    if (event >= first_stop_event() && event < first_watched_) met.push_back(event - first_stop_event());
   if (!rubbed.empty()) action = friction_event(t, rubbed, y);
+  if (action == math::OdeAction::stop) return action;
+  if (!met.empty()) action = stop_event(t, met, y);
   if (action == math::OdeAction::stop) return action;
   for (const std::size_t event : which) {
     if (event >= first_friction_event()) continue;

@@ -113,6 +113,27 @@ struct FrictionEvent {
   double sense = 0;                                ///< state from here on: 1, -1 slides, 0 sticks
 };
 
+/// A change of the state of a stop.
+enum class StopChange {
+  hits,   ///< its joint meets it and is thrown back
+  rests,  ///< its joint stays on it
+  leaves  ///< its joint comes off it
+};
+constexpr std::array<EnumName<StopChange>, 3> names(StopChange) {
+  return {{{StopChange::hits, "is hit", "its joint meets it and is thrown back"},
+           {StopChange::rests, "closes", "its joint stays on it"},
+           {StopChange::leaves, "opens", "its joint comes off it"}}};
+}
+/// An event of a stop.
+struct StopEvent {
+  double time = 0;                        ///< s; of `rests` after impacts without number, when they end
+  std::size_t stop = 0;                   ///< index of the stop
+  StopChange change = StopChange::rests;  ///< what happens
+  double before = 0;                      ///< rate of the gap before (rad/s or m/s)
+  double after = 0;                       ///< rate of the gap after (rad/s or m/s)
+  double energy_lost = 0;                 ///< J, in an impact
+};
+
 /// Times during which friction holds a linkage at rest although a load over time or a drive may free it.
 struct FrictionRests {
   long count = 0;         ///< number of rests
@@ -139,6 +160,8 @@ struct SimulationReport {
   FrictionRests rests;                         ///< rests by friction
   std::vector<FrictionEvent> friction_events;  ///< the first 10000
   long friction_event_count = 0;               ///< number of all of them
+  std::vector<StopEvent> stop_events;          ///< of the stops, the first 10000
+  long stop_event_count = 0;                   ///< number of all of them
   long steps = 0,                              ///< of the integration
       evaluations = 0;                         ///< of the equations of motion
 };
@@ -160,6 +183,11 @@ struct SimulationReport {
 /// otherwise. Where several joints hold the same motion, the largest share of what one of them can bear is
 /// the least possible. Changes of states are found within the steps and reported. A run ends `at_rest` when
 /// friction holds the whole linkage and neither drives nor loads over time can free it.
+///
+/// Rigid stops throw their joints back with their restitution (Newton's law for several impacts at once;
+/// friction takes no part in them), or hold them as long as they have to push. Impacts that follow each other
+/// ever faster come to their end within a ten-millionth of the time of the simulation, and are passed. A
+/// joint that a drive presses on its stop ends the run as limit_reached.
 ///
 /// @param linkage the linkage, with masses and loads
 /// @param plan its plan

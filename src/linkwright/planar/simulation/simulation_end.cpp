@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/linkage/strut.h"
 #include "linkwright/planar/simulation/detail/simulation_run.h"
 
@@ -23,7 +25,40 @@ Sentence place(const Linkage& l, const LinkagePlan& plan, std::size_t input, dou
              plan.rotary[input] ? degrees_of(value).fixed(4).spelled() : millimetres(value, 5));
 }
 
+Sentence stop_place(const Linkage& l, std::size_t stop) {
+  const JointStop& s = l.stops[stop];
+  return l.joints[at(s.joint)].type == JointType::revolute ? degrees_of(s.limit).fixed(4).spelled()
+                                                           : millimetres(s.limit, 6);
+}
+
 }  // namespace
+
+bool Simulation::start_stops(double t, std::span<double> y) {
+  put(t, y);
+  if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
+  solve_position(plan_, inputs_, dynamics_.motion);
+  solve_velocity(plan_, inputs_, dynamics_.motion);
+  if (const int passed = passed_stop(l_, plan_, dynamics_.motion, 1e-7); passed >= 0) {
+    report_.status = Status::limit_reached;
+    report_.message = say("the start does not work: '{}' is beyond its stop at {}",
+                          l_.joints[at(l_.stops[at(passed)].joint)].name, stop_place(l_, at(passed)));
+    return false;
+  }
+  std::vector<std::size_t> met;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const StopMotion now = stop_motion(l_, plan_, dynamics_.motion, k);
+    const bool pin = l_.joints[at(l_.stops[k].joint)].type == JointType::revolute;
+    if (now.gap > 1e-9 * (pin ? 1 : plan_.size)) continue;
+    if (rigid(k))
+      met.push_back(k);
+    else
+      contacts_[k].closed = -*l_.stops[k].stiffness * now.gap - l_.stops[k].damping * now.rate > 0;
+  }
+  if (met.empty()) return true;
+  if (stop_event(t, met, y) != math::OdeAction::stop) return true;
+  finish({.t = t}, y);
+  return false;
+}
 
 Sentence Simulation::start_message(Status status) const {
   if (dynamics_.motion.failed_group >= 0)
@@ -46,7 +81,15 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
   put(ode.t, y);
   const Sentence where = say("{} with {}", seconds(at_limit_ ? limit_time_ : ode.t, 6), stands());
   if (resting_ && !stuck_) end_rest(ode.t);
-  if (stuck_) {
+  if (pressed_ >= 0) {
+    const std::size_t stop = at(pressed_);
+    const LinkageJoint& joint = l_.joints[at(l_.stops[stop].joint)];
+    report_.status = Status::limit_reached;
+    report_.message =
+        say("the drives press '{}' on its stop at {}, after {}: end the motion there, or leave "
+            "the joint free",
+            joint.name, stop_place(l_, stop), seconds(ode.t, 6));
+  } else if (stuck_) {
     report_.status = Status::at_rest;
     report_.message = say("friction holds the linkage at rest from {} on", where);
   } else if (jammed_) {
@@ -55,7 +98,7 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
   } else if (chattering_ >= 0) {
     report_.status = Status::not_converged;
     report_.message =
-        say("the motion cannot be followed beyond {}: joint '{}' sticks and slides in turn while no "
+        say("the motion cannot be followed beyond {}: joint '{}' changes between rest and motion while no "
             "time passes",
             where, l_.joints[at(chattering_)].name);
   } else if (at_change_) {

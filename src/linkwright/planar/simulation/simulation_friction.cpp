@@ -48,7 +48,7 @@ std::vector<double> Simulation::shares_of(int joint) {
 
 Status Simulation::solve_here(double t) {
   if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
-  const Status status = dynamics_.solve(t, inputs_);
+  const Status status = solve_pressed(t);
   if (status != Status::done) restore();
   return status;
 }
@@ -162,16 +162,10 @@ bool Simulation::decide(double t, const std::vector<bool>& stops) {
   for (const Rubbing& r : rubbing_) {
     const double was = before[at(r.joint)], sense = states.senses[at(r.joint)];
     if (was == sense) continue;
-    double value = joint_motion(l_, plan_, dynamics_.motion, r.joint).value;
-    for (std::size_t k = 0; k < l_.driven.size(); ++k)
-      if (l_.driven[k] == r.joint) value = inputs_[k].value;
-    ++report_.friction_event_count;
-    if (report_.friction_events.size() < kept_events)
-      report_.friction_events.push_back({t, r.joint,
-                                         sense == 0 ? FrictionChange::sticks
-                                         : was == 0 ? FrictionChange::slips
-                                                    : FrictionChange::reverses,
-                                         value, sense});
+    note_friction(t, r.joint,
+                  sense == 0 ? FrictionChange::sticks
+                  : was == 0 ? FrictionChange::slips
+                             : FrictionChange::reverses);
   }
   return true;
 }
@@ -187,6 +181,36 @@ void Simulation::keep_states(double t) {
   if (rests && !resting_) resting_since_ = t;
   if (!rests && resting_) end_rest(t);
   resting_ = rests;
+}
+
+void Simulation::rub_after_impact(double t, std::span<double> y, bool decided) {
+  put(t, y);
+  FrictionStates& states = *dynamics_.states;
+  if (solve_here(t) != Status::done) return;
+  std::vector<bool> stops(rubbing_.size(), false);
+  for (std::size_t i = 0; i < rubbing_.size(); ++i) {
+    Rubbing& r = rubbing_[i];
+    const double rate = rate_of(r.joint), sense = rate > 0 ? 1 : -1, was = states.senses[at(r.joint)];
+    r.largest = std::max(r.largest, std::abs(rate));
+    stops[i] = std::abs(rate) <= zero_rate * r.largest;
+    if (stops[i] && !decided) states.senses[at(r.joint)] = nan;
+    if (stops[i] || was == sense) continue;
+    states.senses[at(r.joint)] = sense;
+    note_friction(t, r.joint, was == 0 ? FrictionChange::slips : FrictionChange::reverses);
+  }
+  if (!decided) return;
+  decide(t, stops);
+  if (any_sticks()) still(t, y);
+  keep_states(t);
+}
+
+void Simulation::note_friction(double t, int joint, FrictionChange change) {
+  ++report_.friction_event_count;
+  if (report_.friction_events.size() >= kept_events) return;
+  double value = joint_motion(l_, plan_, dynamics_.motion, joint).value;
+  for (std::size_t k = 0; k < l_.driven.size(); ++k)
+    if (l_.driven[k] == joint) value = inputs_[k].value;
+  report_.friction_events.push_back({t, joint, change, value, dynamics_.states->senses[at(joint)]});
 }
 
 math::OdeAction Simulation::friction_event(double t, std::span<const std::size_t> which,

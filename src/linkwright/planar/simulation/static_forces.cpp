@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
@@ -35,16 +36,22 @@ Status StaticForces::solve(std::span<const double> values) {
     solve_position(plan_, inputs_, motion);
   if (motion.status != Status::done) return motion.status;
   if (strut_beyond_stroke(l_, plan_, motion)) return Status::limit_reached;
+  constexpr double rounding = 1e-13;  // rad, and sizes of the linkage
+  const bool passed = passed_stop(l_, plan_, motion, rounding) >= 0;
   for (std::size_t j = 0; j < free_.size(); ++j) {
     inputs_[free_[j]].rate = 1;
     solve_velocity(plan_, inputs_, motion);
     inputs_[free_[j]].rate = 0;
     for (std::size_t p = 1; p < plan_.parts.size(); ++p)
       rates_[j * plan_.parts.size() + p] = {motion.parts[p].velocity, motion.parts[p].speed};
+    if (j > 0) continue;
+    stop_rates.clear();
+    for (std::size_t k = 0; k < l_.stops.size(); ++k)
+      stop_rates.push_back(stop_motion(l_, plan_, motion, k).rate);
   }
   solve_velocity(plan_, inputs_, motion);
   force = along_inputs();
-  return Status::done;
+  return passed ? Status::limit_reached : Status::done;
 }
 
 // The generalised forces at the present rates of the motion, and their scale.

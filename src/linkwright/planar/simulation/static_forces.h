@@ -30,7 +30,7 @@ class StaticForces {
   ///
   /// @param values values of all inputs (rad or m)
   /// @returns done; the status of the position where it is not done; limit_reached where a gas spring would
-  ///   be beyond its stroke
+  ///   be beyond its stroke, or a joint beyond a rigid stop
   Status solve(std::span<const double> values);
 
   /// Mass matrix of the free inputs at the last `solve`, row by row (kg m2, kg m or kg).
@@ -44,6 +44,7 @@ class StaticForces {
   LinkageMotion motion;       ///< position of the last `solve`; set `motion.modes` to change assembly modes
   std::vector<double> force;  ///< generalised force along each free input (N m or N)
   double scale = 0;           ///< the sum of the sizes of what the forces consist of (N m or N)
+  std::vector<double> stop_rates;  ///< of the gap of each stop for a unit rate of the first free input
 
  private:
   struct PartRate {

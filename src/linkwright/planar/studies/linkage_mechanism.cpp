@@ -291,11 +291,12 @@ void read_traced_points(std::vector<study::ObjectReader>& traces, const Linkage&
   }
 }
 
-// The mechanism as a study writes it, without struts and cams where it has none.
+// The mechanism as a study writes it, without struts, stops and cams where it has none.
 Value form_value(const Linkage& linkage) {
   Value form = study::write_fields(form_of(linkage));
   std::erase_if(form.as_object(), [&](const Value::Member& m) {
-    return (m.key == "strut" && linkage.struts.empty()) || (m.key == "cam" && linkage.cams.empty());
+    return (m.key == "strut" && linkage.struts.empty()) || (m.key == "stop" && linkage.stops.empty()) ||
+           (m.key == "cam" && linkage.cams.empty());
   });
   return form;
 }

@@ -224,6 +224,16 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, const LinkagePlan& 
     joint_fields(axis, rotary || of_spindle, a, !assembled);
     if (of_spindle) a.from /= spindle_turning(*screw), a.to /= spindle_turning(*screw);
     rows *= std::max(a.samples, 1);
+    for (const JointStop& stop : l.stops) {
+      constexpr double typed = 1e-9;
+      const double end = stop.side > 0 ? std::min(a.from, a.to) : std::max(a.from, a.to);
+      if (stop.joint != l.driven[*input] || stop.stiffness || assembled) continue;
+      if (stop.side * (end - stop.limit) < -typed)
+        axis.error(a.to == end ? "to" : "from",
+                   fmt::format("the drive of '{}' presses on its stop at {}", a.joint,
+                               units.text(stop.limit, rotary ? Dimension::angle : Dimension::length, 6)),
+                   "end the sweep there, or leave the joint free");
+    }
     if (a.samples >= 2 && a.from == a.to)
       axis.error("to",
                  fmt::format("the sweep ends where it begins, at {}",

@@ -153,6 +153,16 @@ bool read_search(study::ObjectReader& document, const LinkageDescription& d, Res
     document.error("mechanism",
                    "rest positions of groups without closed form are found for linkages with one input",
                    "weld the joints that are held (type = \"fixed\")");
+  if (!single)
+    for (const JointStop& stop : d.linkage.stops)
+      if (!stop.stiffness) {
+        document.error(
+            "mechanism.stop",
+            fmt::format("the stop of '{}' is rigid, and {} joints are free",
+                        d.linkage.joints[static_cast<std::size_t>(stop.joint)].name, grid.free.size()),
+            "give it a stiffness, or hold all joints but one");
+        break;
+      }
   canonical["drive"] = Value(std::move(written_drives));
   Value written = Value::object();
   study::ObjectWriter writer(written);

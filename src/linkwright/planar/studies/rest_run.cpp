@@ -68,6 +68,12 @@ class RestReport {
     return out;
   }
 
+  // True if it is pressed on the stop of a pin.
+  bool is_on_pin(const RestPosition& p) const {
+    return p.stop >= 0 &&
+           s_.linkage.joints[at(s_.linkage.stops[at(p.stop)].joint)].type == JointType::revolute;
+  }
+
   void position_table() {
     Table table{.name = "rest"};
     for (const RestPosition& p : found_.positions) table.names.emplace_back(name_of(p.kind));
@@ -86,6 +92,16 @@ class RestReport {
     add("potential_energy_J", "potential energy of weight, springs and struts (J)",
         [](const RestPosition& p) { return p.potential; });
     add(force_key(), force_label(), [](const RestPosition& p) { return p.force; });
+    if (std::any_of(found_.positions.begin(), found_.positions.end(),
+                    [](const RestPosition& p) { return p.stop >= 0; })) {
+      add("stop_torque_N_m", "torque of the stop (N m)",
+          [this](const RestPosition& p) { return is_on_pin(p) ? p.stop_effort : nan; });
+      add("stop_force_N", "force of the stop, of a pin at its arm (N)", [this](const RestPosition& p) {
+        if (p.stop < 0) return nan;
+        const double arm = is_on_pin(p) ? s_.linkage.stops[at(p.stop)].arm : 1;
+        return arm > 0 ? p.stop_effort / arm : nan;
+      });
+    }
     add("range", "number of the range", [](const RestPosition& p) { return p.range + 1; });
     result_.tables.push_back(std::move(table));
   }
@@ -157,6 +173,15 @@ class RestReport {
       case RestKind::at_end:
       case RestKind::flutter:
         break;
+    }
+    if (p.stop >= 0) {
+      const JointStop& stop = s_.linkage.stops[at(p.stop)];
+      const LinkageJoint& joint = s_.linkage.joints[at(stop.joint)];
+      const bool pin = is_on_pin(p);
+      const Measured effort = study::torque_or_force(p.stop_effort, pin, 6);
+      return pin && stop.arm > 0 ? say("pressed with {}, {} at its arm, on the stop of {}", effort,
+                                       study::torque_or_force(p.stop_effort / stop.arm, false, 8), joint.name)
+                                 : say("pressed with {} on the stop of {}", effort, joint.name);
     }
     return say("pressed with {} against the end of the range", force_text(std::abs(p.force)));
   }

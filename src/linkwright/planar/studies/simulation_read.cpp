@@ -203,6 +203,11 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
       document.error("simulation",
                      fmt::format("gear '{}' has an efficiency, which a simulation does not take", j.name),
                      "leave it out; the analysis of planar.linkage takes it");
+  if (!description->linkage.stops.empty() && (elastic || s.route == SimulationRoute::all_coordinates))
+    document.error(
+        elastic ? "elastic" : "simulation",
+        elastic ? "a linkage with flexible bodies does not take stops" : "all_coordinates do not take stops",
+        elastic ? "leave the stops or the flexible bodies out" : "route = \"free_joints\" does");
   const std::string pair = first_rolling_pair(description->linkage);
   if (!pair.empty() && s.route == SimulationRoute::all_coordinates)
     document.error("simulation", fmt::format("all_coordinates do not take {}", pair),

@@ -31,6 +31,7 @@ class SimulationRunner {
     integrate();
     finish_table();
     friction_table();
+    stop_table();
     result_.scenes.push_back(linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, "time_s", "time"));
     plots();
     facts();
@@ -122,6 +123,35 @@ class SimulationRunner {
     result_.tables.push_back(std::move(table));
   }
 
+  // The events of the stops, in their order.
+  void stop_table() {
+    if (report_.stop_events.empty()) return;
+    Table table{.name = "stops"};
+    const auto add = [&](const char* key, const char* label, const auto& number) {
+      std::vector<double> values;
+      for (const StopEvent& e : report_.stop_events) {
+        const JointStop& stop = s_.linkage.stops[e.stop];
+        const bool pin = s_.linkage.joints[at(stop.joint)].type == JointType::revolute;
+        values.push_back(number(e, stop.side, pin));
+      }
+      table.add(key, label, values);
+    };
+    for (const StopEvent& e : report_.stop_events)
+      table.names.push_back(fmt::format("{} {}", stop_name(s_.linkage, e.stop), name_of(e.change)));
+    add("time_s", "time (s)", [](const StopEvent& e, double, bool) { return e.time; });
+    add("joint_speed_before_rad_per_s", "joint speed before (rad/s)",
+        [](const StopEvent& e, double side, bool pin) { return pin ? side * e.before : nan; });
+    add("joint_speed_after_rad_per_s", "joint speed after (rad/s)",
+        [](const StopEvent& e, double side, bool pin) { return pin ? side * e.after : nan; });
+    add("slide_speed_before_m_per_s", "slide speed before (m/s)",
+        [](const StopEvent& e, double side, bool pin) { return pin ? nan : side * e.before; });
+    add("slide_speed_after_m_per_s", "slide speed after (m/s)",
+        [](const StopEvent& e, double side, bool pin) { return pin ? nan : side * e.after; });
+    add("energy_lost_J", "energy lost in the impact (J)",
+        [](const StopEvent& e, double, bool) { return e.energy_lost; });
+    result_.tables.push_back(std::move(table));
+  }
+
   void plots() {
     const study::AddPlot plot{result_, {.table = "motion", .x = "time_s", .scene = "motion"}};
     const Linkage& l = s_.linkage;
@@ -198,6 +228,7 @@ class SimulationRunner {
                                       s_.linkage.joints[at(first.joint)].name, name_of(first.change),
                                       at_place("time", seconds(first.time))));
     }
+    stop_facts();
     if (const FrictionRests& rests = report_.rests; rests.count > 0) {
       const Sentence first = say("from {} to {}", at_place("from", seconds(rests.first_from, 6)),
                                  at_place("to", seconds(rests.first_to, 6)));
@@ -229,6 +260,18 @@ class SimulationRunner {
       warn(report_.message,
            dead ? "simulation.route = \"all_coordinates\" passes it, and so does another free joint" : "");
     }
+  }
+
+  void stop_facts() {
+    if (report_.stop_events.empty()) return;
+    const study::AddFact fact{result_.facts};
+    const StopEvent& first = report_.stop_events.front();
+    fact("changes of stops",
+         say("{}; the first: {} {} at {}", report_.stop_event_count, stop_name(s_.linkage, first.stop),
+             name_of(first.change), at_place("time", seconds(first.time))));
+    double lost = 0;
+    for (const StopEvent& e : report_.stop_events) lost += e.energy_lost;
+    if (lost > 0) fact("energy lost in impacts", measured("J", lost, 4));
   }
 
   void headline() {

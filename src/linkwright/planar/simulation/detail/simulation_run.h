@@ -39,8 +39,9 @@ class Simulation {
   bool stops_at_changes() const {
     return branch_ && branch_->has_change_points() && options_.at_change_point != AtChangePoint::smooth;
   }
-  // Events of friction come after those of change points.
+  // Events of friction come after those of change points, and those of stops after them.
   std::size_t first_friction_event() const { return stops_at_changes() ? 2 : 0; }
+  std::size_t first_stop_event() const { return first_friction_event() + 2 * rubbing_.size(); }
 
   // ---- state: values and rates of the free inputs, work -------------------------------------------------
 
@@ -138,6 +139,7 @@ class Simulation {
   math::OdeAction friction_event(double t, std::span<const std::size_t> which, std::span<double> y);
   // States of the joints that stick and of those given by `stops`; reports what changes.
   bool decide(double t, const std::vector<bool>& stops);
+  void note_friction(double t, int joint, FrictionChange change);
   // What is remembered of the states from here on.
   void keep_states(double t);
   // Sets the rates of sticking joints to zero, by the least change of the rates in y.
@@ -154,6 +156,51 @@ class Simulation {
   void end_rest(double t);
   // Joint forces of this instant, by the states of the joints.
   const LinkageForces* forces_with_friction(double t);
+
+  // ---- stops --------------------------------------------------------------------------------------------
+
+  // A stop: open, or closed while it has to push; one that gives way is closed while its joint touches it.
+  struct Contact {
+    bool closed = false;
+    double stays = 1;        // last value of its event
+    double largest = 0;      // of the rates of its gap so far
+    double most_effort = 0;  // so far
+    double mobility = 0;     // acceleration of its gap by a unit of its effort, without friction
+  };
+  bool rigid(std::size_t stop) const { return !l_.stops[stop].stiffness; }
+  bool any_closed() const {  // of the rigid stops
+    for (std::size_t k = 0; k < contacts_.size(); ++k)
+      if (rigid(k) && contacts_[k].closed) return true;
+    return false;
+  }
+  // LinkageDynamics::solve with the efforts that keep the closed stops closed.
+  Status solve_pressed(double t);
+  // Accelerations of the gaps of these stops under the present efforts.
+  Status gap_accelerations(double t, std::span<const std::size_t> stops, std::vector<double>& out);
+  // The same, and by what a unit of each of the efforts changes them, row by row.
+  Status measure_stops(double t, std::span<const std::size_t> stops, std::vector<double>& accelerations,
+                       std::vector<double>& matrix);
+  // Stops that are met at the start; false, and the reason in the report, where one is passed.
+  bool start_stops(double t, std::span<double> y);
+  void stop_values(double t, std::span<const double> y, std::span<double> values);
+  math::OdeAction stop_event(double t, std::span<const std::size_t> which, std::span<double> y);
+  // Rates of the gaps of these stops at y; the kinetic energy as well.
+  std::vector<double> gap_rates(double t, std::span<const std::size_t> stops, std::span<const double> y,
+                                double& energy);
+  // Rates after the impacts at these stops, by Newton's law with these restitutions. False where no free
+  // joint moves one of them: a drive presses on it.
+  bool impact(double t, std::span<const std::size_t> stops, std::span<const double> restitutions,
+              std::span<double> y);
+  // When the impacts at this stop that follow one with this rate of the gap after it come to their end (s);
+  // infinity where they do not.
+  double end_of_impacts(double t, std::size_t stop, double after, std::span<const double> y);
+  // Decides which of these stops, whose gaps and rates are zero, are closed from here on.
+  void close_stops(double t, std::span<const std::size_t> stops, std::span<double> y);
+  // Joints that slide or stick after an impact; undecided, those at rest have no friction yet.
+  void rub_after_impact(double t, std::span<double> y, bool decided);
+  // Puts the joints of closed stops onto them, without a rate.
+  void hold_on_stops(double t, std::span<double> y);
+  void note_stop(StopEvent event);
 
   // ---- end ----------------------------------------------------------------------------------------------
 
@@ -201,8 +248,12 @@ class Simulation {
   double span_ = 1, window_ = 0;
   long steps_ = 0, quick_events_ = 0;
   double event_time_ = -infinity;
-  int chattering_ = -1;  // joint
-  bool jammed_ = false;  // friction locks
+  int chattering_ = -1;            // joint
+  bool jammed_ = false;            // friction locks
+  std::vector<Contact> contacts_;  // one a stop
+  double stopped_at_ = -infinity;  // last event of a stop, s
+  int stops_at_once_ = 0;
+  int pressed_ = -1;  // stop on which a drive presses
   Status last_status_ = Status::done;
   int failed_group_ = -1;
   SimulationReport report_;
