@@ -59,6 +59,34 @@ TEST(LinkageFriction, OfASliderAsByHand) {
   const Rub back = rub(rubbing(mu, 0), pi / 2, -2);
   EXPECT_NEAR(back.forces.drives[0], -100 / (cosine - mu * sine) * cosine * 0.05, 1e-10);
 }
+// A lever of 0.2 m, pressed with 10 N m onto a running belt with friction 0.4, at an angle from the belt:
+// moments about its pin give N l (cos - mu sin) where the belt draws the tip under the pin. From atan(1 / mu)
+// on, 68.2 deg, no finite force lets the belt run, as in a sprag clutch.
+TEST(LinkageFriction, ALeverOnABeltLocksLikeASprag) {
+  const auto pressed = [](double angle, double speed) {
+    Linkage l = grounded({{"O", 0}, {"P", {0, 0.2 * std::sin(angle)}}});
+    add_body(l, "belt", {{"B", 0}});
+    add_bar(l, "lever", "P", "tip", 0.2);
+    for (std::size_t b = 1; b < 3; ++b) l.bodies[b].mass = BodyMass{};
+    l.gravity = 0;
+    add_slide(l, "run", "ground.O", "belt.B");
+    add_pin(l, "P", "ground.P", "lever.P");
+    add_slot(l, "contact", "belt.B", "lever.tip", 0);
+    l.joints[2].friction = 0.4;
+    add_drive(l, "run");
+    set_start(l, "lever", {0, 0.2 * std::sin(angle)}, -angle);
+    l.torques.push_back({.name = "press", .body = 2, .torque = -10});
+    return rub(l, 0, speed).forces;
+  };
+  const double angle = pi / 3, locks = std::atan(1 / 0.4);
+  EXPECT_NEAR(locks * 180 / pi, 68.19859051364818, 1e-10);
+  EXPECT_NEAR(std::abs(pressed(angle, -1).joints[2].force.y), 325.54236981299033, 1e-9);
+  EXPECT_NEAR(std::abs(pressed(angle, 1).joints[2].force.y), 59.07301480239404, 1e-9);
+  EXPECT_EQ(pressed(locks - 1e-4, -1).status, Status::done);
+  EXPECT_EQ(pressed(locks + 1e-4, -1).status, Status::self_locking);
+  EXPECT_EQ(pressed(locks + 1e-4, 1).status, Status::done);
+}
+
 TEST(LinkageFriction, TakesPower) {
   const Linkage dry = rubbing(0, 0);
   for (const auto& [guide, pins] : {std::pair{0.2, 0.0}, {0.0, 0.1}, {0.2, 0.1}})

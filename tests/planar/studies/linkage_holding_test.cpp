@@ -66,6 +66,68 @@ TEST(LinkageHolding, ColumnsAndFactsOfALoad) {
   EXPECT_THAT(fact(result, "locks by itself"), HasSubstr("nowhere; its margin is"));
 }
 
+// An arm of two bars that brakes hold: the load at its tip, and its margin.
+const std::string braked = R"(
+schema = 1
+kind   = "analysis"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0] }
+[[mechanism.body]]
+name      = "upper"
+points_mm = { O = [0, 0], A = [500, 0] }
+mass_kg   = 2.0
+[[mechanism.body]]
+name      = "fore"
+points_mm = { A = [0, 0], tip = [400, 0] }
+mass_kg   = 1.5
+[[mechanism.joint]]
+name                = "shoulder"
+first               = "ground.O"
+second              = "upper.O"
+friction_torque_N_m = 18.0
+[[mechanism.joint]]
+name                = "elbow"
+first               = "upper.A"
+second              = "fore.A"
+friction_torque_N_m = 6.0
+[[mechanism.force]]
+name    = "W"
+point   = "fore.tip"
+force_N = [0, -1]
+[[drive]]
+joint = "shoulder"
+[[drive]]
+joint = "elbow"
+[[sweep.input]]
+joint    = "shoulder"
+from_deg = 40.0
+to_deg   = 60.0
+samples  = 2
+[[sweep.input]]
+joint    = "elbow"
+from_deg = -60.0
+to_deg   = -30.0
+samples  = 2
+[holding]
+load = "W"
+)";
+
+TEST(LinkageHolding, SeveralJointsHoldALoad) {
+  const study::Result result = run_text(braked);
+  ASSERT_EQ(result.status, Status::done);
+  EXPECT_NEAR(column(result, "holding_least_N")[0], -23.32016658713868, 1e-8);
+  EXPECT_NEAR(column(result, "holding_greatest_N")[0], 7.696495259840608, 1e-8);
+  EXPECT_NEAR(column(result, "self_locking_margin")[0], 1.48036841906272, 1e-8);
+  // The shoulder bears 18 N m of 2 g 0.5 cos 40 / 2 + 1.5 g (0.5 cos 40 + 0.2 cos 10) = 12.29 N m.
+  EXPECT_THAT(fact(result, "locks by itself"),
+              HasSubstr("in 4 of 4 positions; the least margin is 1.464 at 40"));
+  EXPECT_THAT(problems_of(replaced(braked, "load = \"W\"", "drive = \"elbow\"")),
+              HasSubstr("the linkage has 2 inputs; a drive alone holds one input"));
+}
+
 TEST(LinkageHolding, ColumnsOfADrive) {
   const study::Result result = run_text(replaced(lever, "load = \"effort\"", "drive = \"O\""));
   const std::vector<double>&least = column(result, "holding_least_N_m"),

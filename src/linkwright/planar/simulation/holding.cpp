@@ -7,6 +7,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/planar/linkage/dynamics.h"
 
 namespace linkwright::planar {
 
@@ -86,22 +87,28 @@ HoldingRange HoldingForces::range(double value, const LinkageMotion& placed, dou
   const double none = needed(0, 1), slope = needed(1, 1) - none;
   HoldingRange out{.without_friction = -none / slope};
   set_friction(1);
-  double found[2];
-  for (const int side : {0, 1}) {
-    const double sense = side ? 1 : -1;
-    double size = out.without_friction, value_at = needed(size, sense);
-    double change = std::abs(size) > 0 ? 1e-3 * size : 1;
-    for (int i = 0; i < 60 && std::abs(change) > 1e-14 * std::abs(size); ++i) {
-      const double next = needed(size + change, sense), rate = (next - value_at) / change;
-      size += change, value_at = next;
-      if (value_at == 0 || rate == 0) break;
-      change = -value_at / rate;
+  if (!std::isfinite(out.without_friction)) return {Status::not_converged, nan, nan, out.without_friction};
+  // From there on outwards, the load at which no drive is needed to keep it moving; where it is needed
+  // however large the load, or nothing moves the linkage, friction jams it.
+  const double scale = std::max({std::abs(out.without_friction), std::abs(none), 1e-9}),
+               most = 1e12 * std::max(scale, 1.0);
+  for (const double sense : {-1.0, 1.0}) {
+    const double outwards = slope > 0 ? -sense : sense;
+    const auto holds = [&](double beyond) {
+      const double drive = sense * needed(out.without_friction + outwards * beyond, sense);
+      return std::isnan(drive) || drive > 0;
+    };
+    double high = scale * 1e-3, low = 0;
+    while (holds(high) && high < most) low = high, high *= 4;
+    double beyond = infinity;
+    if (high < most && high > scale * 1e-3) {
+      beyond = math::zero_between(
+          [&](double b) { return needed(out.without_friction + outwards * b, sense); }, low, high);
+    } else if (high < most) {
+      beyond = math::bisect(holds, low, high, {.relative = 1e-15, .halvings = 200}).inside;
     }
-    found[side] = size;
+    (outwards < 0 ? out.least : out.greatest) = out.without_friction + outwards * beyond;
   }
-  out.least = std::min(found[0], found[1]), out.greatest = std::max(found[0], found[1]);
-  if (!std::isfinite(out.least + out.greatest))
-    return {Status::not_converged, nan, nan, out.without_friction};
   return out;
 }
 
@@ -125,6 +132,120 @@ double HoldingForces::self_locking_margin(double value, const LinkageMotion& pla
   const double factor = math::bisect(holds, high, low, {.relative = 1e-12, .halvings = 200}).inside;
   set_friction(1);
   return 1 / factor;
+}
+
+namespace {
+
+// The joints of a linkage at rest, all of which stick: the share of what the most loaded one can bear.
+class StuckLinkage {
+ public:
+  StuckLinkage(const Linkage& linkage, const LinkagePlan& plan, std::size_t load,
+               std::span<const double> values, const LinkageMotion& placed, double time)
+      : original_(linkage),
+        l_(linkage),
+        load_(load),
+        time_(time),
+        dynamics_(l_, plan, std::vector<bool>(plan.inputs(), true), AccelerationRoute::mass_matrix) {
+    for (const double value : values) inputs_.push_back({value, 0, 0});
+    dynamics_.motion.modes = placed.modes;
+    dynamics_.motion.parts = placed.parts;
+    l_.forces[load].factor = {};
+  }
+
+  // The share for a size of the load, with all friction times a factor; NaN where it cannot be told.
+  double share(double size, double factor) {
+    for (std::size_t j = 0; j < l_.joints.size(); ++j) {
+      const LinkageJoint& joint = original_.joints[j];
+      l_.joints[j].friction = factor * joint.friction;
+      l_.joints[j].friction_static = factor * joint.friction_static;
+      l_.joints[j].friction_effort = factor * joint.friction_effort;
+    }
+    l_.forces[load_].force = size * (original_.forces[load_].force / std::abs(original_.forces[load_].force));
+    dynamics_.states.emplace(l_.joints.size());
+    for (std::size_t j = 0; j < l_.joints.size(); ++j)
+      if (has_friction(l_.joints[j])) dynamics_.states->senses[j] = 0;
+    status = dynamics_.solve(time_, inputs_);
+    if (status != Status::done) return nan;
+    if (dynamics_.states->held < inputs_.size()) {
+      status = Status::infeasible;
+      return nan;
+    }
+    double most = 0;
+    for (std::size_t j = 0; j < l_.joints.size(); ++j)
+      if (const double s = dynamics_.states->shares[j]; s > most) most = s, slips = static_cast<int>(j);
+    return most;
+  }
+
+  Status status = Status::done;
+  int slips = -1;  // the most loaded joint
+
+ private:
+  const Linkage& original_;
+  Linkage l_;
+  std::size_t load_;
+  double time_;
+  std::vector<InputMotion> inputs_;
+  LinkageDynamics dynamics_;
+};
+
+// A size of the load that the linkage holds, by halving an interval about the least share, which is convex.
+double held_size(StuckLinkage& linkage, double width) {
+  const double golden = (3 - std::sqrt(5.0)) / 2;
+  double low = -width, high = width;
+  for (int i = 0; i < 200; ++i) {
+    const double a = low + golden * (high - low), b = high - golden * (high - low);
+    const double at_a = linkage.share(a, 1), at_b = linkage.share(b, 1);
+    if (at_a <= 1) return a;
+    if (at_b <= 1) return b;
+    (at_a <= at_b ? high : low) = at_a <= at_b ? b : a;
+  }
+  return nan;
+}
+
+}  // namespace
+
+HeldLoad held_load(const Linkage& linkage, const LinkagePlan& plan, std::size_t load,
+                   std::span<const double> values, const LinkageMotion& placed, double time) {
+  constexpr double most = 1e12, most_factor = 1e6;
+  LINKWRIGHT_REQUIRE(load < linkage.forces.size(), "the linkage has {} forces, there is no force {}",
+                     linkage.forces.size(), load);
+  StuckLinkage stuck(linkage, plan, load, values, placed, time);
+  HeldLoad out;
+  double inside = 0;
+  const double share = stuck.share(inside, 1);
+  out.status = stuck.status;
+  if (out.status != Status::done) return {out.status, nan, nan, nan, -1, -1};
+  if (!(share <= 1)) {
+    for (double width = 1; width < most && !(stuck.share(inside, 1) <= 1); width *= 100)
+      if (const double found = held_size(stuck, width); !std::isnan(found)) inside = found;
+  }
+  if (!(stuck.share(inside, 1) <= 1)) {
+    out.status = Status::infeasible, out.least = out.greatest = nan;
+  } else {
+    for (const double sense : {-1.0, 1.0}) {
+      const auto holds = [&](double size) { return stuck.share(size, 1) <= 1; };
+      double step = std::max(1.0, std::abs(inside));
+      while (step < most && holds(inside + sense * step)) step *= 4;
+      const bool ends = step < most;
+      const double end =
+          ends ? math::bisect(holds, inside, inside + sense * step, {.relative = 1e-15, .halvings = 200})
+                     .inside
+               : sense * infinity;
+      if (ends) stuck.share(end, 1);
+      (sense < 0 ? out.least : out.greatest) = end;
+      (sense < 0 ? out.least_slips : out.greatest_slips) = ends ? stuck.slips : -1;
+    }
+  }
+  if (stuck.share(0, 1) == 0) {
+    out.margin = infinity;
+    return out;
+  }
+  const auto holds = [&](double factor) { return factor > 0 && stuck.share(0, factor) <= 1; };
+  double high = 1, low = 0;
+  while (!holds(high) && high < most_factor) low = high, high *= 4;
+  if (high < most_factor)
+    out.margin = 1 / math::bisect(holds, high, low, {.relative = 1e-14, .halvings = 200}).inside;
+  return out;
 }
 
 }  // namespace linkwright::planar

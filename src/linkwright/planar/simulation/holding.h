@@ -65,4 +65,31 @@ class HoldingForces {
   LinkageForces forces_;
 };
 
+/// The sizes of a load with which friction holds a linkage with several free inputs at rest.
+struct HeldLoad {
+  /// done; the status of the position; infeasible where no size holds it; singular where an input moves no
+  /// mass
+  Status status = Status::done;
+  double least = 0,         ///< N; -infinity: however small
+      greatest = 0;         ///< N; infinity: however large
+  double margin = 0;        ///< as HoldingForces::self_locking_margin
+  int least_slips = -1,     ///< index of the joint that slips below `least`; -1: none
+      greatest_slips = -1;  ///< the same above `greatest`
+};
+
+/// Statics with friction for any number of free inputs: the linkage stays as long as there are efforts of its
+/// joints within what they bear. The least possible share of that which the most loaded joint needs is convex
+/// in the load, and 1 at the ends of the range.
+///
+/// @param linkage the linkage, with masses and loads, in which every input moves a mass
+/// @param plan its plan
+/// @param load index of the force of Linkage::forces whose size is sought
+/// @param values values of all inputs, all of them free (rad or m)
+/// @param placed a motion in that position, whose assembly modes are taken
+/// @param time time for load tables (s)
+/// @returns the range
+/// @throws ContractError if a body has no mass, or there is no such force
+HeldLoad held_load(const Linkage& linkage, const LinkagePlan& plan, std::size_t load,
+                   std::span<const double> values, const LinkageMotion& placed, double time);
+
 }  // namespace linkwright::planar

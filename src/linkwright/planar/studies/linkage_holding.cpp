@@ -32,19 +32,33 @@ void fields(Visitor&& visit, HoldingTable& h) {
 
 // The ranges of an instant, found once for all columns.
 struct HoldingInstant {
-  HoldingInstant(const Linkage& linkage, const LinkagePlan& plan, std::optional<std::size_t> load)
-      : forces(linkage, plan, load) {}
-
-  void find(const LinkageInstant& now) {
-    if (is_found && now.inputs[0].value == value && now.time == time) return;
-    value = now.inputs[0].value, time = now.time, is_found = true;
-    range = forces.range(value, *now.motion, time);
-    margin = forces.self_locking_margin(value, *now.motion, time);
+  HoldingInstant(const Linkage& l, const LinkagePlan& p, std::optional<std::size_t> unknown)
+      : linkage(l), plan(p), load(unknown) {
+    if (plan.inputs() == 1) forces.emplace(linkage, plan, load);
   }
 
-  HoldingForces forces;
+  void find(const LinkageInstant& now) {
+    std::vector<double> here;
+    for (const InputMotion& input : now.inputs) here.push_back(input.value);
+    if (is_found && here == values && now.time == time) return;
+    values = here, time = now.time, is_found = true;
+    if (forces) {
+      range = forces->range(values[0], *now.motion, time);
+      margin = forces->self_locking_margin(values[0], *now.motion, time);
+      return;
+    }
+    const HeldLoad held = held_load(linkage, plan, *load, values, *now.motion, time);
+    range = {held.status, held.least, held.greatest, nan};
+    margin = held.margin;
+  }
+
+  const Linkage& linkage;
+  const LinkagePlan& plan;
+  std::optional<std::size_t> load;
+  std::optional<HoldingForces> forces;
   bool is_found = false;
-  double value = 0, time = 0;
+  std::vector<double> values;
+  double time = 0;
   HoldingRange range;
   double margin = 0;
 };
@@ -62,9 +76,10 @@ std::optional<LinkageHolding> read_holding(study::ObjectReader& document, const 
   if (!table) return std::nullopt;
   HoldingTable read;
   table->read(read);
-  if (plan.inputs() != 1) {
-    table->error("drive", fmt::format("the linkage has {} inputs; this is for one input", plan.inputs()),
-                 "leave [holding] out");
+  if (plan.inputs() != 1 && read.load.empty()) {
+    table->error("drive",
+                 fmt::format("the linkage has {} inputs; a drive alone holds one input", plan.inputs()),
+                 "name a force as `load`, or leave [holding] out");
     return std::nullopt;
   }
   LinkageHolding holding;
@@ -133,7 +148,11 @@ void add_holding_facts(const LinkageStudy& s, study::Result& result) {
   if (!least || !greatest || !margin || !input) return;
   const auto force = [&](double value) { return study::torque_or_force(value, !in_newtons(s), 5); };
   const auto where = [&](std::size_t row) {
-    return input_place(s.linkage, s.plan, 0, input->values[row], 6);
+    Sentence out;
+    for (std::size_t k = 0; k < s.plan.inputs(); ++k)
+      if (const Column* axis = table.find(input_key(s.linkage, s.plan, k)))
+        out += say("{}{}", k ? ", " : "", input_place(s.linkage, s.plan, k, axis->values[row], 6));
+    return out;
   };
   const auto place = [&](double value) { return study::angle_or_length(value, s.plan.rotary[0], 5); };
   const auto known = [](double v) { return std::isfinite(v); };
@@ -148,6 +167,21 @@ void add_holding_facts(const LinkageStudy& s, study::Result& result) {
     fact("least that holds", say("{} at {}", force(least->values[*row]), where(*row)));
   if (const auto row = extreme(*greatest, 1))
     fact("greatest that holds", say("{} at {}", force(greatest->values[*row]), where(*row)));
+  std::size_t jammed = 0;
+  for (std::size_t r = 0; r < table.rows(); ++r)
+    jammed += std::isinf(least->values[r]) || std::isinf(greatest->values[r]);
+  if (jammed > 0)
+    fact("holds any load",
+         say("on one side or both in {} of {} positions: it jams, since friction grows with the load", jammed,
+             table.rows()));
+  if (s.plan.inputs() > 1) {
+    const auto held =
+        std::count_if(margin->values.begin(), margin->values.end(), [](double v) { return v >= 1; });
+    if (const auto row = extreme(*margin, -1))
+      fact("locks by itself", say("in {} of {} positions; the least margin is {} at {}", held, table.rows(),
+                                  plain_number(margin->values[*row]), where(*row)));
+    return;
+  }
   // Stretches of rows that lock by themselves; their ends where the margin between two rows is 1.
   const std::vector<double>&m = margin->values, &x = input->values;
   const auto edge = [&](std::size_t a, std::size_t b) {
