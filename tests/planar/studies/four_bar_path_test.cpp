@@ -35,7 +35,7 @@ std::string target(const std::string& lines) {
 // The schema lists the keys of all methods; that of another method is in the right table already.
 TEST(PathStudyRead, AKeyOfAnotherMethodIsUnknown) {
   EXPECT_THAT(problems_of(target(square) + "[optimiser]\nmethod = \"grey_wolf\"\ncrossover = 0.5\n"),
-              HasSubstr("optimiser.crossover: unknown key; allowed here: seeds, method, population"));
+              HasSubstr("optimiser.crossover: unknown key; allowed here: seeds, seed, method, population"));
 }
 
 TEST(PathStudyRead, NamesWhatIsWrongWithThePoints) {
