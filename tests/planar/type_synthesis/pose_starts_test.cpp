@@ -89,9 +89,10 @@ TEST(PoseStarts, MeetFewPosesExactly) {
     }
 }
 
-TEST(PoseStarts, AreNoneOfOtherFamilies) {
-  const MotionTarget target = poses_of(known_machines()[0], 0, 5);
+TEST(PoseStarts, AreNoneOfOtherFamiliesAndOfTwoPoses) {
+  const MotionTarget target = poses_of(known_machines()[0], 0, 5), two = poses_of(known_machines()[0], 0, 2);
   RunContext context;
+  EXPECT_TRUE(pose_starts(two, {}, MachineFamily::four_bar, 20, context).empty());
   EXPECT_TRUE(pose_starts(target, {}, MachineFamily::watt_1, 20, context).empty());
 }
 

@@ -102,6 +102,7 @@ std::vector<DyadPair> pairs_of(const std::vector<BodyPose>& poses, GuidingDyadTy
                                const RunContext& context) {
   RandomStream random({.seed = chosen_from});
   std::vector<DyadPair> out;
+  if (poses.size() < 3) return out;  // any hinge at the pole of the rotation meets two
   if (poses.size() <= 5) {
     std::vector<GuidingDyad> dyads = dyad_family(poses, {}, {}).dyads;
     if (poses.size() == 3 && partner != GuidingDyadType::rr) add_slides(poses, partner, random, dyads);
