@@ -33,8 +33,8 @@ class Shards : public test::ProgramFixture, public ::testing::WithParamInterface
     std::vector<std::string> out{"run", LINKWRIGHT_STUDIES "/" + name, "--quiet", "--set",
                                  "output.formats=['json']"};
     if (name == "press-that-rests.toml")  // its own search takes seconds
-      out = with(out, {"--set", "mechanism.families=['slider_crank']", "--set",
-                       "optimiser.evaluations=4000"});
+      out =
+          with(out, {"--set", "mechanism.families=['slider_crank']", "--set", "optimiser.evaluations=4000"});
     return out;
   }
 };
