@@ -202,6 +202,7 @@ TEST(JointStops, FrictionGoesOnAfterAnImpact) {
   ASSERT_GT(run.report.stop_events.size(), 3u);
   EXPECT_EQ(run.report.stop_events.back().change, StopChange::rests);
   EXPECT_EQ(run.rows.back().inputs[0].value, -1);
+  EXPECT_EQ(run.report.rests.count, 0);  // the stop holds it
   EXPECT_LT(run.report.largest_drift, 1e-8);
   for (std::size_t i = 1; i < run.rows.size(); ++i)
     EXPECT_GE(run.rows[i].friction_loss, run.rows[i - 1].friction_loss - 1e-12);

@@ -55,6 +55,9 @@ TEST(DryFriction, AnEffortOfItsOwnNeedsNoLoad) {
   EXPECT_EQ(run.report.status, Status::at_rest);
   EXPECT_NEAR(run.report.time, 2 / 2.943, 1e-10);
   EXPECT_NEAR(run.rows.back().friction_loss, 5.886 * run.rows.back().inputs[0].value, 1e-9);
+  // Friction that bears nothing holds nothing.
+  EXPECT_THAT(to_string(run.report.message), testing::HasSubstr("is at rest from 0.67957"));
+  EXPECT_THAT(to_string(run.report.message), testing::HasSubstr("nothing acts that would move it"));
 }
 
 // A clutch of 6 N m between discs of 0.2 and 0.3 kg m2, the first at 100 rad/s: it locks after 2 s at 40

@@ -91,7 +91,12 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
             joint.name, stop_place(l_, stop), seconds(ode.t, 6));
   } else if (stuck_) {
     report_.status = Status::at_rest;
-    report_.message = say("friction holds the linkage at rest from {} on", where);
+    // Where no joint bears anything, there is nothing to be held.
+    const std::vector<double>& shares = dynamics_.states->shares;
+    const bool bears = std::any_of(shares.begin(), shares.end(), [](double share) { return share > 1e-9; });
+    report_.message =
+        bears ? say("friction holds the linkage at rest from {} on", where)
+              : say("the linkage is at rest from {} on, and nothing acts that would move it", where);
   } else if (jammed_) {
     report_.status = Status::self_locking;
     report_.message = say("friction locks the linkage at {}: {}", where, jams_text);

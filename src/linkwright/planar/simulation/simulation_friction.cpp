@@ -177,7 +177,7 @@ void Simulation::keep_states(double t) {
     r.margin = rounding_share + (share > 1 ? share - 1 : 0);
     if (r.slide && std::isfinite(normal)) r.flank = normal < 0 ? -1 : 1;
   }
-  const bool rests = states.held > 0 && states.held == dynamics_.free().size();
+  const bool rests = states.held > 0 && states.held == dynamics_.free().size() && !any_closed();
   if (rests && !resting_) resting_since_ = t;
   if (!rests && resting_) end_rest(t);
   resting_ = rests;
