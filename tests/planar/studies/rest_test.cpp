@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "linkwright/core/numbers.h"
@@ -38,6 +39,89 @@ std::string two_arms() {
                "0.3\n[[mechanism.joint]]\nname = \"B\"\nfirst = \"arm.B\"\nsecond = \"hand.B\"\n"
                "[[mechanism.joint]]"),
       "[rest]", "[[drive]]\njoint = \"B\"\nstart_deg = -90.0\n[rest]");
+}
+
+// A toggle clamp, 40 and 60 mm, that 800 N press onto a stop 3 degrees past its dead centre.
+const std::string clamp = R"(
+schema = 1
+kind   = "rest"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name      = "frame"
+points_mm = { O = [0, 0] }
+[[mechanism.body]]
+name      = "crank"
+points_mm = { O = [0, 0], A = [40, 0] }
+mass_kg   = 0.0
+[[mechanism.body]]
+name      = "rod"
+points_mm = { A = [0, 0], B = [60, 0] }
+mass_kg   = 0.0
+[[mechanism.body]]
+name      = "plunger"
+points_mm = { B = [0, 0] }
+mass_kg   = 0.0
+[[mechanism.joint]]
+name   = "O"
+first  = "frame.O"
+second = "crank.O"
+[[mechanism.joint]]
+name   = "A"
+first  = "crank.A"
+second = "rod.A"
+[[mechanism.joint]]
+name   = "B"
+first  = "rod.B"
+second = "plunger.B"
+[[mechanism.joint]]
+name   = "guide"
+type   = "prismatic"
+first  = "frame.O"
+second = "plunger.B"
+[[mechanism.assembly]]
+bodies = ["rod", "plunger"]
+mode   = "plus"
+[[mechanism.force]]
+name    = "work piece"
+point   = "plunger.B"
+force_N = [-800, 0]
+[[mechanism.stop]]
+joint        = "O"
+at_least_deg = -3.0
+at_most_deg  = 90.0
+arm_mm       = 30.0
+[[drive]]
+joint = "O"
+free  = true
+)";
+
+TEST(RestStudy, AClampRestsOnItsStops) {
+  const study::Result result = run_text(clamp);
+  ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
+  ASSERT_EQ(result.tables[0].rows(), 3u);  // either stop, and the dead centre between them
+  EXPECT_NEAR(column(result, "rest", "O_angle_rad")[0], -3 * pi / 180, 1e-12);
+  EXPECT_NEAR(column(result, "rest", "stop_torque_N_m")[0], 2.7904001530881977, 1e-10);
+  EXPECT_NEAR(column(result, "rest", "stop_force_N")[0], 93.01333843627326, 1e-8);
+  EXPECT_TRUE(std::isnan(column(result, "rest", "stop_force_N")[1]));
+  EXPECT_EQ(fact(result, "rest position 1"),
+            "-3°: pressed with 2.7904 N m, 93.013338 N at its arm, on the stop of O");
+}
+
+// The same clamp turned by a drive: the row on the stop has what the stop carries without the drive, and
+// beyond it no sweep goes.
+TEST(RestStudy, AnAnalysisEndsAtTheStop) {
+  std::string text = replaced(clamp, "\"rest\"", "\"analysis\"");
+  text = replaced(text, "free  = true", "speed_rpm = 1.0");
+  const auto swept = [&](const std::string& from) {
+    return text + "[[sweep.input]]\njoint = \"O\"\nfrom_deg = " + from + "\nto_deg = 10.0\nsamples = 14\n";
+  };
+  const study::Result result = run_text(swept("-3.0"));
+  ASSERT_EQ(result.status, Status::done);
+  const std::vector<double>& force = column(result, "O_lower_stop_force_N");
+  EXPECT_NEAR(force[0], 93.01333843627326, 1e-8);
+  EXPECT_EQ(force[1], 0);
+  EXPECT_THAT(problems_of(swept("-4.0")), HasSubstr("the drive of 'O' presses on its stop at -3"));
 }
 
 TEST(RestStudy, OtherJointsAreHeld) {
