@@ -121,6 +121,19 @@ TEST(RestStudy, AnAnalysisEndsAtTheStop) {
   const std::vector<double>& force = column(result, "O_lower_stop_force_N");
   EXPECT_NEAR(force[0], 93.01333843627326, 1e-8);
   EXPECT_EQ(force[1], 0);
+  // One that gives way pushes back where the joint is beyond it, and the drive has the less to do.
+  const auto drive_at_4 = [&](const std::string& stop) {
+    text = replaced(text, "arm_mm       = 30.0", stop);
+    return run_text(swept("-4.0"));
+  };
+  const study::Result soft = drive_at_4("stiffness_N_m_per_rad = 100"), softer = [&] {
+    text = replaced(text, "stiffness_N_m_per_rad = 100", "stiffness_N_m_per_rad = 1e-9");
+    return run_text(swept("-4.0"));
+  }();
+  const double push = 100 * pi / 180;
+  EXPECT_NEAR(column(soft, "O_lower_stop_torque_N_m")[0], push, 1e-9);
+  EXPECT_NEAR(column(softer, "O_drive_torque_N_m")[0] - column(soft, "O_drive_torque_N_m")[0], push, 1e-9);
+  text = replaced(text, "stiffness_N_m_per_rad = 1e-9", "");
   EXPECT_THAT(problems_of(swept("-4.0")), HasSubstr("the drive of 'O' presses on its stop at -3"));
 }
 

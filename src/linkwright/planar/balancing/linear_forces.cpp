@@ -246,6 +246,7 @@ LinearForces linear_forces(const Linkage& linkage, const LinkagePlan& plan, std:
   bare.forces.clear();
   bare.torques.clear();
   bare.struts.clear();
+  bare.stops.clear();
 
   set_names(forces, component_names(linkage, plan));
 

@@ -26,9 +26,9 @@ bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
     if (!g.as<Driver>() && !g.as<Dyad>()) return false;
   if (!forces) return true;
   return l.springs.empty() && l.torsion_springs.empty() && l.forces.empty() && l.torques.empty() &&
-         l.struts.empty() && std::all_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) {
-           return !has_friction(j) && j.type != JointType::fixed;
-         });
+         l.struts.empty() && l.stops.empty() &&
+         std::all_of(l.joints.begin(), l.joints.end(),
+                     [](const LinkageJoint& j) { return !has_friction(j) && j.type != JointType::fixed; });
 }
 
 // Value of an input's row at a sample.

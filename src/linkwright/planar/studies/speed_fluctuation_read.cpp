@@ -54,6 +54,9 @@ study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::
   by_time("force", l.forces);
   by_time("torque", l.torques);
   by_time("strut", l.struts);
+  if (!l.stops.empty())
+    document.error("mechanism", "the joints of a cycle have no stops",
+                   "leave them out, or take kind = \"simulation\"");
   Value drive;
   if (!l.driven.empty()) drive["joint"] = input_joint(l, 0).name;
   write_linkage(*description, prepared.canonical);
