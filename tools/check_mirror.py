@@ -86,6 +86,7 @@ NO_TEST = {
     "optimise/detail/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
     "optimise/detail/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
     "planar/linkage/detail/curve_equations.h": "part of linkage_curve, tested in linkage_curve_test.cpp",
+    "planar/linkage/detail/form_parts.h": "parts of a form, tested in form_test.cpp",
     "planar/four_bar/detail/sweep_kernel.h": "part of sweep, compiled once per instruction set and compared by its test",
     "planar/linkage/detail/plan_draft.h": "stages of a plan, tested in plan_test.cpp",
     "planar/linkage/detail/joint_rows.h": "part of linkage_general and linkage_curve, tested in both",

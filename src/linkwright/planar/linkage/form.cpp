@@ -9,70 +9,14 @@
 #include <string_view>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/planar/linkage/belt_run.h"
 #include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/detail/form_parts.h"
 
 namespace linkwright::planar {
 namespace {
 
 std::complex<double> number(const Place& p) { return {p[0], p[1]}; }
 Place place(std::complex<double> z) { return {z.real(), z.imag()}; }
-
-// Resolves names against the bodies that exist.
-class Names {
- public:
-  Names(const Linkage& linkage, std::vector<FormProblem>& problems) : l_(linkage), problems_(problems) {}
-
-  bool clean() const { return problems_.empty(); }
-  void at(std::string list, std::size_t index) { list_ = std::move(list), index_ = index; }
-  int body(const std::string& key, const std::string& name) {
-    const int found = body_index(l_, name);
-    if (found < 0) {
-      std::vector<std::string_view> known;
-      for (const LinkageBody& b : l_.bodies) known.push_back(b.name);
-      problem(key, fmt::format("there is no body '{}'", name), nearest(name, known));
-    }
-    return std::max(found, 0);
-  }
-  BodyPoint point(const std::string& key, const std::string& name) {
-    const auto dot = name.rfind('.');
-    if (dot == std::string::npos) {
-      problem(key, fmt::format("'{}' is not a point", name), "write body.point, as \"crank.A\"");
-      return {};
-    }
-    const std::size_t before = problems_.size();
-    const int b = body(key, name.substr(0, dot));
-    if (problems_.size() > before) return {};
-    const LinkageBody& body = l_.bodies[static_cast<std::size_t>(b)];
-    const int p = point_index(body, name.substr(dot + 1));
-    if (p < 0) {
-      std::vector<std::string_view> known;
-      for (const LinkagePoint& q : body.points) known.push_back(q.name);
-      problem(key, fmt::format("body '{}' has no point '{}'", body.name, name.substr(dot + 1)),
-              nearest(name.substr(dot + 1), known));
-    }
-    return {b, std::max(p, 0)};
-  }
-  // The wheel of a gear: a body, or its centre.
-  BodyPoint wheel(const std::string& key, const std::string& name) {
-    const bool centre = body_index(l_, name) < 0 && name.find('.') != std::string::npos;
-    return centre ? point(key, name) : BodyPoint{body(key, name), 0};
-  }
-  void problem(const std::string& key, std::string message, std::string hint, bool warning = false) {
-    problems_.push_back({list_, index_, key, std::move(message), std::move(hint), warning});
-  }
-
- private:
-  static std::string nearest(std::string_view name, const std::vector<std::string_view>& known) {
-    std::string all;
-    for (std::string_view k : known) all += fmt::format("{}{}", all.empty() ? "there are: " : ", ", k);
-    return did_you_mean(name, known, all);
-  }
-  const Linkage& l_;
-  std::vector<FormProblem>& problems_;
-  std::string list_;
-  std::size_t index_ = 0;
-};
 
 LoadFactor factor_of(const FactorForm& f) { return {f.against, f.argument, f.factor, f.period}; }
 FactorForm form_of(const LoadFactor& f) { return {f.against, f.argument, f.factor, f.period}; }
@@ -106,320 +50,8 @@ void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
   if (form.centre) body.mass->centre = number(*form.centre);
 }
 
-}  // namespace
-
-namespace {
-
-// The same by the radii of the pitch circles.
-double ratio_of_radii(const JointForm& f, InternalWheel internal, Names& names) {
-  const std::vector<double>& radii = *f.pitch_radii;
-  if (radii.size() != 2 || !(radii[0] > 0 && radii[1] > 0)) {
-    names.problem("pitch_radii", fmt::format("gear '{}' has no two pitch radii above 0", f.name),
-                  "write two, that of the first wheel first");
-    return 1;
-  }
-  if (internal == InternalWheel::none) return -radii[0] / radii[1];
-  const bool first_is_ring = internal == InternalWheel::first;
-  if (!(radii[first_is_ring ? 0 : 1] > radii[first_is_ring ? 1 : 0]))
-    names.problem(
-        "internal",
-        fmt::format("internal wheel '{}' is not larger than its pinion", first_is_ring ? f.first : f.second),
-        "the ring has the larger radius: swap `internal`");
-  return radii[0] / radii[1];
-}
-
-// The speed of the second wheel by that of the first.
-double ratio_of(const JointForm& f, Names& names) {
-  const InternalWheel internal = f.internal.value_or(InternalWheel::none);
-  if (f.pitch_radii && (f.teeth || f.ratio || f.ratio_curve))
-    names.problem("pitch_radii",
-                  fmt::format("gear '{}' has {} and pitch radii", f.name,
-                              f.teeth   ? "teeth"
-                              : f.ratio ? "ratio"
-                                        : "a ratio curve"),
-                  "leave one");
-  if (f.pitch_radii) return ratio_of_radii(f, internal, names);
-  if (f.teeth && f.ratio)
-    names.problem("ratio", fmt::format("gear '{}' has teeth and ratio", f.name), "leave one");
-  if (f.ratio_curve && (f.teeth || f.ratio))
-    names.problem("ratio_curve",
-                  fmt::format("gear '{}' has {} and a ratio curve", f.name, f.teeth ? "teeth" : "ratio"),
-                  "leave one");
-  if (!f.teeth) {
-    if (internal != InternalWheel::none)
-      names.problem(
-          "internal", fmt::format("gear '{}' has a ring but no teeth", f.name),
-          "write the teeth or the pitch radii of both wheels; a ratio of a ring is positive by itself");
-    return f.ratio.value_or(1);
-  }
-  if (f.teeth->size() != 2 || f.teeth->front() < 1 || f.teeth->back() < 1) {
-    names.problem("teeth", fmt::format("gear '{}' has {} numbers of teeth", f.name, f.teeth->size()),
-                  "write two, that of the first wheel first");
-    return 1;
-  }
-  const int first = f.teeth->front(), second = f.teeth->back();
-  if (internal == InternalWheel::none) return -static_cast<double>(first) / second;
-  const bool first_is_ring = internal == InternalWheel::first;
-  const int ring = first_is_ring ? first : second, pinion = first_is_ring ? second : first;
-  if (ring <= pinion)
-    names.problem("internal",
-                  fmt::format("internal wheel '{}' has {} teeth, its pinion {}",
-                              first_is_ring ? f.first : f.second, ring, pinion),
-                  "the ring needs more: swap `internal`");
-  return static_cast<double>(first) / second;
-}
-
-// An axis: pins in one place, with the bodies that they join.
-struct PinAxis {
-  std::vector<BodyPoint> points;
-
-  const BodyPoint* on(int body) const {
-    const auto found =
-        std::find_if(points.begin(), points.end(), [&](const BodyPoint& p) { return p.body == body; });
-    return found == points.end() ? nullptr : &*found;
-  }
-};
-std::complex<double> pin_place(const Linkage& l, const BodyPoint& p) {
-  return l.bodies[static_cast<std::size_t>(p.body)].points[static_cast<std::size_t>(p.point)].at;
-}
-bool same_pin_place(const Linkage& l, const BodyPoint& p, const BodyPoint& q) {
-  return p.body == q.body && std::abs(pin_place(l, p) - pin_place(l, q)) <= 1e-9 * size_of(l);
-}
-std::vector<PinAxis> axes_of(const Linkage& l) {
-  std::vector<PinAxis> axes;
-  for (const LinkageJoint& j : l.joints) {
-    if (j.type != JointType::revolute) continue;
-    PinAxis now{{j.first, j.second}};
-    std::erase_if(axes, [&](const PinAxis& axis) {
-      const bool here = std::any_of(axis.points.begin(), axis.points.end(), [&](const BodyPoint& p) {
-        return same_pin_place(l, p, j.first) || same_pin_place(l, p, j.second);
-      });
-      if (here) now.points.insert(now.points.end(), axis.points.begin(), axis.points.end());
-      return here;
-    });
-    axes.push_back(std::move(now));
-  }
-  return axes;
-}
-
-// The wheels of a gear with the axes of all pins. A wheel turns about any pin of its body, or about the one
-// at its centre where the form names that.
-struct Wheels {
-  const Linkage& l;
-  const JointForm& form;
-  const LinkageJoint& gear;
-  std::vector<PinAxis> axes;
-
-  // The first point of a Geneva drive is its pin, not an axis.
-  bool first_named() const { return !gear.geneva && body_index(l, form.first) < 0; }
-  bool second_named() const { return body_index(l, form.second) < 0; }
-  bool turns_on(const BodyPoint& wheel, bool named, const PinAxis& axis) const {
-    return std::any_of(axis.points.begin(), axis.points.end(), [&](const BodyPoint& p) {
-      return p.body == wheel.body && (!named || same_pin_place(l, p, wheel));
-    });
-  }
-  // The distance of both axes on a body (m); nothing where it does not hold both.
-  std::optional<double> distance_on(int body) const {
-    for (const PinAxis& a : axes)
-      for (const PinAxis& b : axes) {
-        const BodyPoint *first = a.on(body), *second = b.on(body);
-        if (&a != &b && first && second && turns_on(gear.first, first_named(), a) &&
-            turns_on(gear.second, second_named(), b))
-          return std::abs(pin_place(l, *first) - pin_place(l, *second));
-      }
-    return std::nullopt;
-  }
-};
-
-// The body on which both wheels have a pin, each an axis of its own.
-int carrier_of(const Wheels& wheels, Names& names) {
-  const Linkage& l = wheels.l;
-  std::vector<int> found;
-  for (int body = 0; body < static_cast<int>(l.bodies.size()); ++body)
-    if (body != wheels.gear.first.body && body != wheels.gear.second.body && wheels.distance_on(body))
-      found.push_back(body);
-  const bool bodies_alone = !wheels.first_named() && !wheels.second_named();
-  if (bodies_alone && (found.empty() || found.front() == 0)) return 0;
-  const auto name = [&](std::size_t k) { return l.bodies[static_cast<std::size_t>(found[k])].name; };
-  if (found.empty())
-    names.problem("carrier",
-                  fmt::format("no body carries both '{}' and '{}'", wheels.form.first, wheels.form.second),
-                  "name the `carrier`, or join both wheels to one body by pins");
-  else if (found.size() > 1)
-    names.problem("carrier", fmt::format("both '{}' and '{}' carry the wheels", name(0), name(1)),
-                  "name one as `carrier`");
-  return found.empty() ? 0 : found.front();
-}
-
-// The pressure angle at which teeth of a module work on the distance of the centres.
-double working_angle(const Wheels& wheels, Names& names) {
-  const JointForm& f = wheels.form;
-  const double angle = wheels.gear.pressure_angle;
-  const std::optional<double> distance = wheels.distance_on(wheels.gear.carrier);
-  if (!f.module || !f.teeth || f.teeth->size() != 2 || !distance) return angle;
-  const int first = f.teeth->front(), second = f.teeth->back(),
-            sum = f.internal.value_or(InternalWheel::none) == InternalWheel::none ? first + second
-                                                                                  : std::abs(first - second);
-  const double cosine = *f.module * sum / 2 * std::cos(angle) / *distance;
-  // Teeth are shifted by some percent of the distance, seldom by more.
-  constexpr double shifted = 0.05;
-  const double reference = *f.module * sum / 2;
-  if (cosine <= 1 && std::abs(*distance / reference - 1) > shifted)
-    names.problem(
-        "module_mm",
-        fmt::format("the centres of gear '{}' are {:.6g} mm apart, {:.3g} % off the {:.6g} mm of its "
-                    "teeth, which then press at {:.4g} deg",
-                    f.name, *distance * 1e3, std::abs(*distance / reference - 1) * 100, reference * 1e3,
-                    std::acos(cosine) * 180 / pi),
-        "check the numbers of teeth, the module and the centres", true);
-  if (cosine <= 1) return std::acos(cosine);
-  names.problem(
-      "module_mm",
-      fmt::format(
-          "wheels of {} and {} teeth, module {:.6g}, need {:.6g} mm, the centres are {:.6g} mm apart: the "
-          "teeth would overlap",
-          first, second, *f.module * 1e3, *f.module * sum / 2 * 1e3, *distance * 1e3),
-      fmt::format("move the centres, or take module {:.3g}", 2e3 * *distance / sum));
-  return angle;
-}
-
-// Pitch circles touch where the centres of their wheels keep their distance.
-void check_pitch_radii(const Wheels& wheels, Names& names) {
-  const auto& radii = wheels.form.pitch_radii;
-  const std::optional<double> distance = wheels.distance_on(wheels.gear.carrier);
-  if (!radii || radii->size() != 2 || !distance) return;
-  const bool external = wheels.form.internal.value_or(InternalWheel::none) == InternalWheel::none;
-  const double needed = external ? radii->front() + radii->back() : std::abs(radii->front() - radii->back());
-  if (std::abs(needed - *distance) > 1e-6 * needed)
-    names.problem("pitch_radii",
-                  fmt::format("the pitch circles of gear '{}' touch at {:.6g} mm, its centres are {:.6g} mm "
-                              "apart",
-                              wheels.form.name, needed * 1e3, *distance * 1e3),
-                  "move the centres, or change the radii; teeth or ratio take any distance");
-}
-
-// The radius of a pinion, with the side of the pitch line on which its centre lies; and its angle where it is
-// beside the point of the rack.
-void measure_rack(const Linkage& l, const JointForm& f, bool drawn, LinkageJoint& rack, Names& names) {
-  if (!drawn) {
-    if (!f.radius)
-      names.problem("radius_mm", fmt::format("the pinion of rack '{}' has no radius", f.name),
-                    "give it, negative where the centre lies to the right of the direction of the rack");
-    rack.radius = f.radius.value_or(1);
-    return;
-  }
-  const std::complex<double> apart =
-      (pin_place(l, rack.first) - pin_place(l, rack.second)) * std::polar(1.0, -rack.slide_second);
-  rack.radius = apart.imag();
-  if (f.radius && std::abs(std::abs(*f.radius) - std::abs(apart.imag())) > 1e-6 * std::abs(*f.radius))
-    names.problem(
-        "radius_mm",
-        fmt::format("the pinion of rack '{}' has a radius of {:.6g} mm and is drawn {:.6g} mm from the "
-                    "pitch line",
-                    f.name, std::abs(*f.radius) * 1e3, std::abs(apart.imag()) * 1e3),
-        "move the point of the rack or the pinion, or leave the radius out");
-  if (apart.imag() != 0) rack.phase += apart.real() / apart.imag();
-}
-
-// The centres of the wheels of a belt on a body that carries all of them; empty where it does not.
-std::vector<std::complex<double>> centres_on(const Linkage& l, const std::vector<PinAxis>& axes,
-                                             const Belt& belt, int body) {
-  std::vector<std::complex<double>> out;
-  for (const BeltWheel& wheel : belt.wheels)
-    for (const PinAxis& axis : axes) {
-      const BodyPoint *own = axis.on(wheel.centre.body), *there = axis.on(body);
-      if (body == wheel.centre.body || !own || !there || !same_pin_place(l, *own, wheel.centre)) continue;
-      out.push_back(pin_place(l, *there));
-      break;
-    }
-  if (out.size() != belt.wheels.size()) out.clear();
-  return out;
-}
-
-std::vector<double> signed_radii(const Belt& belt) {
-  std::vector<double> out;
-  for (const BeltWheel& wheel : belt.wheels) out.push_back(wheel.side * wheel.radius);
-  return out;
-}
-
-// A closed belt runs round its wheels once: left of it where they are listed counter-clockwise, else right.
-void orient(Belt& belt, const std::vector<std::complex<double>>& centres) {
-  if (!belt.closed || belt.wheels.size() < 3) return;
-  const auto once = [&] { return std::abs(belt_run(centres, signed_radii(belt), true).turns); };
-  const auto turn_over = [&] {
-    for (BeltWheel& wheel : belt.wheels) wheel.side = -wheel.side;
-  };
-  if (std::abs(once() - 1) < 1e-6) return;
-  turn_over();
-  if (std::abs(once() - 1) > 1e-6) turn_over();
-}
-
-void check_run(const BeltForm& f, const Belt& belt, const std::vector<std::complex<double>>& centres,
-               Names& names) {
-  const std::size_t n = belt.wheels.size();
-  const std::vector<double> radii = signed_radii(belt);
-  for (std::size_t i = 0; i + (belt.closed ? 0 : 1) < n; ++i) {
-    const std::size_t next = (i + 1) % n;
-    const double distance = std::abs(centres[next] - centres[i]);
-    if (distance > std::abs(radii[next] - radii[i])) continue;
-    return names.problem(
-        "wheels",
-        fmt::format("wheels of belt '{}' overlap: distance {:.6g} mm, radii {:.6g} and {:.6g} "
-                    "mm",
-                    f.name, distance * 1e3, std::abs(radii[i]) * 1e3, std::abs(radii[next]) * 1e3),
-        "move them apart; crossed belts need more than the sum");
-  }
-  const double length = belt_run(centres, radii, belt.closed).length;
-  if (f.length && std::abs(*f.length - length) > 1e-6 * length)
-    names.problem("length_mm",
-                  fmt::format("belt '{}' is {:.7g} mm long over its wheels, not {:.7g} mm", f.name,
-                              length * 1e3, *f.length * 1e3),
-                  "move a wheel, or leave the length out");
-}
-
-Belt belt_of(const BeltForm& f, Names& names) {
-  Belt belt{.name = f.name, .closed = f.closed, .tension = f.tension};
-  for (const BeltWheelForm& w : f.wheels) {
-    BeltWheel wheel{names.point("wheels", w.at), w.radius, w.side == BeltSide::inside ? 1.0 : -1.0};
-    if (w.teeth && !f.pitch)
-      names.problem("wheels", fmt::format("belt '{}' has teeth but no pitch", f.name),
-                    "give the pitch of the chain, or radii");
-    else if (w.teeth)
-      wheel.radius = *w.teeth * *f.pitch / full_turn;  // a turn moves as many links as the wheel has teeth
-    belt.wheels.push_back(wheel);
-  }
-  if (belt.wheels.size() < 2)
-    names.problem("wheels", fmt::format("belt '{}' has {} wheels", f.name, belt.wheels.size()),
-                  "it runs over two or more");
-  if (f.carrier) belt.carrier = names.body("carrier", *f.carrier);
-  return belt;
-}
-
-// Finds the body that carries a closed belt, the direction in which it runs, and checks its way.
-void complete_belt(const Linkage& l, const BeltForm& f, bool drawn, Belt& belt, Names& names) {
-  const std::vector<PinAxis> axes = axes_of(l);
-  std::vector<std::complex<double>> centres;
-  for (int body = 0; body < static_cast<int>(l.bodies.size()) && belt.closed && belt.carrier < 0; ++body)
-    if (!centres_on(l, axes, belt, body).empty()) belt.carrier = body;
-  if (belt.carrier >= 0) {
-    centres = centres_on(l, axes, belt, belt.carrier);
-    if (centres.empty())
-      return names.problem("carrier",
-                           fmt::format("'{}' does not carry all wheels of belt '{}'", *f.carrier, f.name),
-                           "join each wheel to it by a pin at its centre");
-  } else if (drawn) {
-    for (const BeltWheel& wheel : belt.wheels) centres.push_back(pin_place(l, wheel.centre));
-  }
-  if (belt.tension && belt.carrier < 0)
-    names.problem("tension_N", fmt::format("the tension of '{}' follows from its loads", f.name),
-                  "leave it out: only a closed belt on one carrier has a tension of its own");
-  if (centres.empty()) return;
-  orient(belt, centres);
-  check_run(f, belt, centres, names);
-}
-
 // The length of a spring without force, from its pull in the drawn position or where its bodies start.
-double free_length_of(const Linkage& l, const SpringForm& f, Names& names) {
+double free_length_of(const Linkage& l, const SpringForm& f, FormNames& names) {
   const auto place_at_start = [&](const BodyPoint& p) -> std::optional<std::complex<double>> {
     const std::optional<math::Pose>& start = l.bodies[static_cast<std::size_t>(p.body)].start;
     if (p.body == 0) return pin_place(l, p);
@@ -450,7 +82,7 @@ double free_length_of(const Linkage& l, const SpringForm& f, Names& names) {
 }
 
 // The table of a strut, whose argument has the unit of what it goes by.
-LoadFactor table_of(const StrutForm& f, Names& names) {
+LoadFactor table_of(const StrutForm& f, FormNames& names) {
   struct Argument {
     const std::optional<std::vector<double>>& values;
     const char* key;
@@ -488,7 +120,7 @@ LoadFactor table_of(const StrutForm& f, Names& names) {
   return table;
 }
 
-Strut strut_of(const StrutForm& f, Names& names) {
+Strut strut_of(const StrutForm& f, FormNames& names) {
   Strut s{.name = f.name, .first = names.point("first", f.first), .second = names.point("second", f.second)};
   const int laws = (f.force ? 1 : 0) + (f.gas ? 1 : 0) + (f.cylinder ? 1 : 0) +
                    (f.force_table || f.against != LoadArgument::constant ? 1 : 0);
@@ -557,7 +189,7 @@ StopForm form_of(const Linkage& l, const JointStop& s) {
 }
 
 // Friction at rest, of falling curves and without load.
-void set_friction(LinkageJoint& j, const JointForm& f, Names& names) {
+void set_friction(LinkageJoint& j, const JointForm& f, FormNames& names) {
   if (f.friction_torque && j.type != JointType::revolute)
     names.problem("friction_torque_N_m",
                   fmt::format("joint '{}' is not a pin, and has a friction torque", f.name),
@@ -587,7 +219,7 @@ void set_friction(LinkageJoint& j, const JointForm& f, Names& names) {
   j.friction_fall = f.friction_fall.value_or(FrictionFall::stribeck);
 }
 
-LinkageJoint joint_of(const JointForm& f, bool drawn, Names& names) {
+LinkageJoint joint_of(const JointForm& f, bool drawn, FormNames& names) {
   LinkageJoint j{.name = f.name, .type = f.type};
   if (f.type == JointType::gear) {
     j.first = names.wheel("first", f.first);
@@ -639,146 +271,9 @@ LinkageJoint joint_of(const JointForm& f, bool drawn, Names& names) {
   return j;
 }
 
-// The joint of a name, of one that the file has.
-int joint_named(const Linkage& l, const std::string& key, const std::string& name, Names& names) {
-  const int found = joint_index(l, name);
-  if (found < 0) {
-    std::vector<std::string_view> known;
-    for (const LinkageJoint& j : l.joints) known.push_back(j.name);
-    std::string all;
-    for (std::string_view k : known) all += fmt::format("{}{}", all.empty() ? "there are: " : ", ", k);
-    names.problem(key, fmt::format("there is no joint '{}'", name), did_you_mean(name, known, all));
-  }
-  return found;
-}
-
-// A cam, whose values are lengths or angles as its follower slides or turns.
-struct CamReading {
-  const CamMemberForm& form;
-  Names& names;
-  bool rotary = false;
-
-  std::optional<double> value(std::string_view key, const FollowerValueForm& v) const {
-    if (rotary ? v.length : v.angle)
-      names.problem(std::string(key),
-                    fmt::format("the follower of cam '{}' {}, and has {} in {}", form.name,
-                                rotary ? "turns" : "slides", key, rotary ? "mm" : "deg"),
-                    fmt::format("write {}_{}", key, rotary ? "deg" : "mm"));
-    return rotary ? v.angle : v.length;
-  }
-  CamSegment segment(const CamSegmentForm& f) const {
-    CamSegment s{.law = f.law, .over = f.over, .to = 0, .conditions = {}};
-    const std::optional<double> to = value("to", f.to);
-    if (f.law == CamLaw::dwell && to)
-      names.problem("segment", fmt::format("a dwell of cam '{}' has an end value", form.name),
-                    "a dwell stays where the segment before it ends: leave it out");
-    if (f.law != CamLaw::dwell && !to)
-      names.problem("segment", fmt::format("a segment of cam '{}' has no end value", form.name),
-                    rotary ? "write to_deg = 20" : "write to_mm = 20");
-    s.to = to.value_or(0);
-    SegmentConditions& c = s.conditions;
-    c.start_rate = value("start_rate", f.start_rate);
-    c.start_acceleration = value("start_acceleration", f.start_acceleration);
-    c.start_jerk = value("start_jerk", f.start_jerk);
-    c.end_rate = value("end_rate", f.end_rate);
-    c.end_acceleration = value("end_acceleration", f.end_acceleration);
-    c.end_jerk = value("end_jerk", f.end_jerk);
-    const bool has_conditions = c.start_rate || c.start_acceleration || c.start_jerk || c.end_rate ||
-                                c.end_acceleration || c.end_jerk;
-    if (f.law != CamLaw::polynomial && has_conditions)
-      names.problem("segment", fmt::format("the law '{}' has its own conditions at the ends", name_of(f.law)),
-                    "write law = \"polynomial\", or leave them out");
-    return s;
-  }
-  CamProgramme programme() const {
-    CamProgramme p{.start = value("start", form.start).value_or(0), .is_sector = form.sector};
-    for (const CamSegmentForm& s : form.segments) p.segments.push_back(segment(s));
-    if (form.table) {
-      const auto& [angles, lengths, turned] = *form.table;
-      const auto &values = rotary ? turned : lengths, &others = rotary ? lengths : turned;
-      if (!values || others || values->size() != angles.size())
-        names.problem(
-            "table",
-            fmt::format("the table of cam '{}' has {} values for {} angles", form.name,
-                        values ? values->size() : 0, angles.size()),
-            rotary ? "give one of values_deg for each angle" : "give one of values_mm for each angle");
-      p.table = CamTable{angles, values.value_or(std::vector<double>())};
-    }
-    if (p.segments.empty() && !p.table)
-      names.problem("segment", fmt::format("cam '{}' has no programme", form.name),
-                    "write [[mechanism.cam.segment]] with law, over_deg and to_mm or to_deg");
-    if (!form.sector) return p;
-    p.angle = 0;
-    for (const CamSegment& s : p.segments) p.angle += s.over;
-    if (p.table && !p.table->angles.empty()) p.angle = p.table->angles.back();
-    return p;
-  }
-};
-
-LinkageCam cam_of(const Linkage& l, const CamMemberForm& f, Names& names) {
-  LinkageCam c{.name = f.name,
-               .turns = joint_named(l, "turns", f.turns, names),
-               .moves = joint_named(l, "moves", f.moves, names),
-               .contact = names.point("contact", f.contact),
-               .face = f.follower,
-               .roller_radius = f.roller_radius.value_or(0),
-               .base_radius = f.base_radius,
-               .face_direction = f.face_direction.value_or(0),
-               .form = f.form,
-               .is_clockwise = f.sense == Rotation::clockwise,
-               .phase = f.phase};
-  if (f.roller_radius && f.follower != FollowerFace::roller)
-    names.problem("roller_radius", fmt::format("a {} follower has no roller", name_of(f.follower)),
-                  "leave the radius out");
-  if (f.face_direction && f.follower != FollowerFace::flat)
-    names.problem("face_direction", fmt::format("a {} follower has no face", name_of(f.follower)),
-                  "leave its direction out");
-  if (c.moves < 0) return c;
-  const CamReading reading{f, names, l.joints[static_cast<std::size_t>(c.moves)].type == JointType::revolute};
-  c.programme = reading.programme();
-  return c;
-}
-
-FollowerValueForm value_form(const std::optional<double>& value, bool rotary) {
-  FollowerValueForm out;
-  (rotary ? out.angle : out.length) = value;
-  return out;
-}
-CamMemberForm form_of(const LinkageCam& c, const Linkage& l, std::string contact) {
-  const bool rotary = l.joints[static_cast<std::size_t>(c.moves)].type == JointType::revolute;
-  CamMemberForm f{.name = c.name,
-                  .turns = l.joints[static_cast<std::size_t>(c.turns)].name,
-                  .moves = l.joints[static_cast<std::size_t>(c.moves)].name,
-                  .follower = c.face,
-                  .contact = std::move(contact)};
-  if (c.face == FollowerFace::roller) f.roller_radius = c.roller_radius;
-  if (c.face == FollowerFace::flat) f.face_direction = c.face_direction;
-  f.base_radius = c.base_radius;
-  f.form = c.form;
-  f.sense = c.is_clockwise ? Rotation::clockwise : Rotation::counterclockwise;
-  f.phase = c.phase;
-  f.start = value_form(c.programme.start, rotary);
-  f.sector = c.programme.is_sector;
-  for (const CamSegment& s : c.programme.segments) {
-    const SegmentConditions& e = s.conditions;
-    CamSegmentForm& out = f.segments.emplace_back();
-    out.law = s.law, out.over = s.over;
-    if (s.law != CamLaw::dwell) out.to = value_form(s.to, rotary);
-    out.start_rate = value_form(e.start_rate, rotary), out.end_rate = value_form(e.end_rate, rotary);
-    out.start_acceleration = value_form(e.start_acceleration, rotary);
-    out.end_acceleration = value_form(e.end_acceleration, rotary);
-    out.start_jerk = value_form(e.start_jerk, rotary), out.end_jerk = value_form(e.end_jerk, rotary);
-  }
-  if (const auto& table = c.programme.table) {
-    f.table = CamTableForm{table->angles, {}, {}};
-    (rotary ? f.table->follower_angles : f.table->lengths) = table->values;
-  }
-  return f;
-}
-
 // The stops of one entry: a lower one, an upper one, or both.
-void add_stops(const StopForm& f, Linkage& l, Names& names) {
-  const int joint = joint_named(l, "joint", f.joint, names);
+void add_stops(const StopForm& f, Linkage& l, FormNames& names) {
+  const int joint = names.joint("joint", f.joint);
   if (joint < 0) return;
   const bool pin = l.joints[static_cast<std::size_t>(joint)].type == JointType::revolute;
   const auto &least = pin ? f.at_least_angle : f.at_least_length,
@@ -824,7 +319,7 @@ void add_stops(const StopForm& f, Linkage& l, Names& names) {
 }
 
 // Springs, forces, torques, struts and stops.
-void add_loads(const LinkageForm& form, Linkage& l, Names& names) {
+void add_loads(const LinkageForm& form, Linkage& l, FormNames& names) {
   for (std::size_t i = 0; i < form.springs.size(); ++i) {
     const SpringForm& s = form.springs[i];
     names.at("spring", i);
@@ -866,7 +361,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
   Linkage l;
   for (const BodyForm& b : form.bodies) l.bodies.push_back(body_of(b, form.drawn));
   l.moment_centre = number(form.moment_centre);
-  Names names(l, problems);
+  FormNames names(l, problems);
   if (l.bodies.empty()) {
     names.problem("body", "the linkage has no bodies",
                   "add [[mechanism.body]] tables; the first is the ground");
@@ -882,10 +377,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
     if (form.joints[i].type == JointType::rack)
       measure_rack(l, form.joints[i], form.drawn, l.joints[i], names);
     if (l.joints[i].type != JointType::gear) continue;
-    const Wheels wheels{l, form.joints[i], l.joints[i], axes_of(l)};
-    if (!form.joints[i].carrier) l.joints[i].carrier = carrier_of(wheels, names);
-    l.joints[i].pressure_angle = working_angle(wheels, names);
-    check_pitch_radii(wheels, names);
+    complete_gear(l, form.joints[i], l.joints[i], names);
   }
   for (std::size_t i = 0; i < form.belts.size() && pins_known; ++i) {
     names.at("belt", i);

@@ -256,29 +256,9 @@ void fields(Visitor&& visit, RatioCurveForm& c) {
   visit(field::angle("second", "angles of the second wheel there, all rising or all falling").required(),
         c.second);
 }
+/// The keys of gears, racks and Geneva drives.
 template <class Visitor>
-void fields(Visitor&& visit, JointForm& j) {
-  visit(field::entry("name", "its name; columns and drives use it").required(), j.name);
-  visit(field::entry("type", "kind of joint"), j.type);
-  visit(field::entry("first",
-                     "point of the first body, \"body.point\"; of a gear the wheel or its "
-                     "centre, of a rack the centre of the pinion")
-            .required(),
-        j.first);
-  visit(field::entry("second",
-                     "point of the second body; of a gear the wheel or its centre, of a rack a point of its "
-                     "pitch line")
-            .required(),
-        j.second);
-  visit(field::angle("direction",
-                     "direction of a slide or slot in the frame of the first body; of a weld the angle of "
-                     "the second body from the first; of a rack its pitch line in the frame of the second"),
-        j.direction);
-  visit(field::angle(
-            "direction_second",
-            "direction of a slide in the frame of the second body; if absent 0, or `direction` of a drawn "
-            "linkage"),
-        j.direction_second);
+void wheel_fields(Visitor& visit, JointForm& j) {
   visit(field::entry("ratio",
                      "gear: turns of the second body for one of the first, seen from the carrier; "
                      "negative: external teeth")
@@ -321,6 +301,9 @@ void fields(Visitor&& visit, JointForm& j) {
   visit(field::entry("ratio_curve",
                      "gear of wheels that are not circular: angles of both, instead of `ratio` or `teeth`"),
         j.ratio_curve);
+}
+template <class Visitor>
+void screw_fields(Visitor& visit, JointForm& j) {
   visit(field::length("lead", "screw: displacement for one turn of the spindle").positive(), j.lead);
   visit(field::length("pitch_diameter", "screw: pitch diameter of the thread, for its friction").positive(),
         j.pitch_diameter);
@@ -331,13 +314,9 @@ void fields(Visitor&& visit, JointForm& j) {
             .not_negative(),
         j.spindle_inertia);
   visit(field::entry("hand", "screw: hand of the thread; if absent right"), j.hand);
-  visit(field::entry("slots", "Geneva drive: slots of the wheel").between(3, 1000), j.slots);
-  visit(
-      field::angle(
-          "slot_angle",
-          "Geneva drive: direction of a slot in the frame of the wheel; if absent 0, or as the wheel stands "
-          "in a drawn linkage"),
-      j.slot_angle);
+}
+template <class Visitor>
+void friction_fields(Visitor& visit, JointForm& j) {
   visit(field::entry("friction", "coefficient of Coulomb friction; of a screw that of its thread")
             .between(0, 10),
         j.friction);
@@ -362,6 +341,40 @@ void fields(Visitor&& visit, JointForm& j) {
         j.stribeck_speed);
   visit(field::entry("friction_fall", "curve along which it falls with `stribeck_speed`; if absent stribeck"),
         j.friction_fall);
+}
+template <class Visitor>
+void fields(Visitor&& visit, JointForm& j) {
+  visit(field::entry("name", "its name; columns and drives use it").required(), j.name);
+  visit(field::entry("type", "kind of joint"), j.type);
+  visit(field::entry("first",
+                     "point of the first body, \"body.point\"; of a gear the wheel or its "
+                     "centre, of a rack the centre of the pinion")
+            .required(),
+        j.first);
+  visit(field::entry("second",
+                     "point of the second body; of a gear the wheel or its centre, of a rack a point of its "
+                     "pitch line")
+            .required(),
+        j.second);
+  visit(field::angle("direction",
+                     "direction of a slide or slot in the frame of the first body; of a weld the angle of "
+                     "the second body from the first; of a rack its pitch line in the frame of the second"),
+        j.direction);
+  visit(field::angle(
+            "direction_second",
+            "direction of a slide in the frame of the second body; if absent 0, or `direction` of a drawn "
+            "linkage"),
+        j.direction_second);
+  wheel_fields(visit, j);
+  screw_fields(visit, j);
+  visit(field::entry("slots", "Geneva drive: slots of the wheel").between(3, 1000), j.slots);
+  visit(
+      field::angle(
+          "slot_angle",
+          "Geneva drive: direction of a slot in the frame of the wheel; if absent 0, or as the wheel stands "
+          "in a drawn linkage"),
+      j.slot_angle);
+  friction_fields(visit, j);
 }
 template <class Visitor>
 void fields(Visitor&& visit, BeltWheelForm& w) {
