@@ -368,7 +368,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   }
   if (const std::string pair = planar::first_rolling_pair(description->linkage); !pair.empty())
     document.error("mechanism", fmt::format("joints with clearance do not go with {}", pair),
-                   "join the wheels by a gear");
+                   "leave it out, or join the wheels by a gear");
   if (!description->linkage.stops.empty())
     document.error("mechanism", "joints with clearance do not go with stops", "leave the stops out");
   Value::Array drives, clearances;

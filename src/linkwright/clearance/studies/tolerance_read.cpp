@@ -321,7 +321,7 @@ study::Prepared prepare_tolerance(study::ObjectReader& document, const study::Co
   s.motion = std::move(*motion);
   if (const std::string pair = planar::first_rolling_pair(s.motion.linkage); !pair.empty())
     document.error("mechanism", fmt::format("tolerances do not go with {}", pair),
-                   "join the wheels by a gear");
+                   "leave it out, or join the wheels by a gear");
   if (document.has("quality"))
     document.error("quality", "belongs to the analysis of planar.linkage",
                    "leave it out, or take mechanism.type = \"planar.linkage\"");

@@ -214,7 +214,7 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
                    "route = \"free_joints\" does");
   if (!pair.empty() && elastic)
     document.error("elastic", fmt::format("a linkage with flexible bodies does not take {}", pair),
-                   "leave the flexible bodies out, or join the wheels by a gear");
+                   "leave the flexible bodies or this part out, or join the wheels by a gear");
   Value::Array drives, beams;
   s.drives = read_input_drives(document, *description, drives);
   s.elastic = read_elastic(document, description->linkage, beams);
