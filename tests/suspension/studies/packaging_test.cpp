@@ -107,7 +107,7 @@ TEST(PackagingStudy, NamesWhatIsWrong) {
   EXPECT_THAT(problem("[[packaging.clearance]]\nfirst = \"tie rod\"\nsecond = \"tie rod\"\n"),
               HasSubstr("packaging.clearance[0].second: is the same part as first"));
   const std::string box = "[[packaging.box]]\nname = \"tyre\"\nlower_mm = [0, 0, 0]\nupper_mm = [1, -1, 1]\n";
-  EXPECT_THAT(problem(box), HasSubstr("packaging.box[0].upper: is below lower along y; exchange them"));
+  EXPECT_THAT(problem(box), HasSubstr("packaging.box[0].upper_mm: is below lower along y; exchange them"));
   EXPECT_THAT(problem(box), HasSubstr("packaging.box[0].name: another part is called 'tyre'"));
 }
 

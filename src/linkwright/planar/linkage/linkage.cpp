@@ -361,7 +361,8 @@ class Checker {
     const double small = 1e-9 * size_of(l_);
     for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
       std::vector<std::pair<std::complex<double>, const LinkageJoint*>> pins;
-      bool other = false, all_driven = true;  // shafts on one axis, with a clutch between them
+      bool other = false, all_driven = true,
+           clutch = false;  // shafts on one axis, with a clutch between them
       for (const LinkageJoint& j : l_.joints)
         for (const BodyPoint& end : {j.first, j.second})
           if (end.body == b) {
@@ -371,8 +372,9 @@ class Checker {
               other = true;
             all_driven = all_driven && std::find(l_.driven.begin(), l_.driven.end(),
                                                  static_cast<int>(&j - l_.joints.data())) != l_.driven.end();
+            clutch = clutch || j.friction_effort > 0;
           }
-      if (other || all_driven || pins.size() < 2) continue;
+      if (other || (all_driven && clutch) || pins.size() < 2) continue;
       if (std::all_of(pins.begin(), pins.end(),
                       [&](const auto& p) { return std::abs(p.first - pins[0].first) <= small; }))
         error("body." + name(b),
