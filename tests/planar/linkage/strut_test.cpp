@@ -169,6 +169,52 @@ TEST(Strut, TablesGoByWhatTheySay) {
   EXPECT_EQ(damper.tables[0].find("lift_energy_J"), nullptr);
 }
 
+TEST(Strut, FormulasAreTheTablesThatTheyDescribe) {
+  const auto analysed = [](const std::string& law) { return run_text(bonnet(strut(law), sweep)); };
+  const study::Result gas_law = run_text(bonnet(gas, sweep)),
+                      formula = analysed("formula = \"900 N * (1 + 0.35 * (356 mm - s) / (80 mm))\"");
+  ASSERT_EQ(formula.status, Status::done) << to_string(formula.headline);
+  for (const char* key : {"lift_force_N", "O_drive_torque_N_m", "load_power_W"})
+    for (std::size_t i = 0; i < 76; ++i)
+      EXPECT_NEAR(column(formula, key)[i], column(gas_law, key)[i], 1e-9) << key;
+  const study::Result damper = analysed("formula = \"-if(v > 0, 1, 2) * 1000 N*s/m * v\"");
+  EXPECT_NEAR(column(damper, "lift_force_N")[40], -1000 * column(damper, "lift_speed_m_per_s")[40], 1e-9);
+  EXPECT_EQ(damper.tables[0].find("lift_energy_J"), nullptr);
+}
+
+// A formula of the length alone is no stored energy, but its work closes the balance all the same.
+TEST(Strut, FormulasKeepTheBalanceOfASimulation) {
+  const std::string motion =
+      "[drive]\njoint = \"O\"\nfree = true\nstart_deg = 30.0\n[simulation]\nto_s = 0.6\nsamples = 61\n";
+  const auto moved = [&](const std::string& law) {
+    return run_text(replaced(bonnet(law, motion), "\"analysis\"", "\"simulation\""));
+  };
+  const study::Result by_law = moved(gas),
+                      formula = moved(strut("formula = \"900 N * (1 + 0.35 * (356 mm - s) / (80 mm))\""));
+  ASSERT_EQ(formula.status, Status::done) << to_string(formula.headline);
+  EXPECT_LE(largest(column(formula, "energy_drift_J")), 1e-7);
+  EXPECT_NEAR(column(formula, "O_angle_rad").back(), column(by_law, "O_angle_rad").back(), 1e-8);
+  const study::Result pulsed =
+      moved(strut("formula = \"700 N + 50 N * sin(2*pi*time / (0.2 s)) - 100 N*s/m * v\""));
+  ASSERT_EQ(pulsed.status, Status::done) << to_string(pulsed.headline);
+  EXPECT_LE(largest(column(pulsed, "energy_drift_J")), 1e-7);
+}
+
+TEST(Strut, AFormulaWithoutAValueIsNamed) {
+  const std::string law = "formula = \"1 N / (1 - floor(s / (300 mm)))\"";
+  const study::Result swept = run_text(bonnet(strut(law), sweep));
+  EXPECT_EQ(swept.status, Status::limit_reached);
+  EXPECT_THAT(lines_of(swept.diagnostics),
+              HasSubstr("the formula of strut 'lift' has no value at a length of 30"));
+  const auto wrong = [](const std::string& text) {
+    return problems_of(bonnet(strut("formula = \"" + text + "\""), sweep));
+  };
+  EXPECT_THAT(wrong("200 N + 15 mm"),
+              HasSubstr("mechanism.strut[0].formula: column 9: cannot add a length to a force"));
+  EXPECT_THAT(wrong("F + 1 N"),
+              HasSubstr("column 1: nothing is called 'F' here; there are time, s, v and pi"));
+}
+
 TEST(Strut, SimulationsKeepTheEnergy) {
   const std::string motion =
       "[drive]\njoint = \"O\"\nfree = true\nstart_deg = 30.0\n[simulation]\nto_s = 0.6\nsamples = 61\n";
@@ -243,10 +289,12 @@ TEST(Strut, FormsCarryEveryLaw) {
   table.against = LoadArgument::time;
   table.times = {0.0, 1.0};
   table.force_table = {5.0, 6.0};
+  add("formula").formula = "3 N + 2 N/mm * s";
   std::vector<FormProblem> problems;
   const LinkageForm again = form_of(linkage_of(form, problems));
   ASSERT_TRUE(problems.empty()) << to_string(problems[0].message);
-  ASSERT_EQ(again.struts.size(), 4u);
+  ASSERT_EQ(again.struts.size(), 5u);
+  EXPECT_EQ(again.struts[4].formula, "3 N + 2 N/mm * s");
   EXPECT_EQ(again.struts[0].force, 3);
   EXPECT_EQ(again.struts[1].gas->extended_length, 0.356);
   EXPECT_EQ(again.struts[2].cylinder->back_pressure, 1e5);

@@ -286,12 +286,12 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
   power = 0;
   solve_position(plan_, inputs, motion);
   if (motion.status != Status::done) return failed(motion.status);
-  if (strut_beyond_stroke(linkage_, plan_, motion)) return failed(Status::limit_reached);
   if (!elimination_) unit_velocities(inputs);
   if (!elimination_ && plan_.inputs() == 1)
     scale_velocities(inputs[0].rate);
   else
     solve_velocity(plan_, inputs, motion);
+  if (strut_without_force(linkage_, plan_, motion, time)) return failed(Status::limit_reached);
   solve_acceleration(plan_, inputs, motion);
   needed_wrenches(time, inputs[0].value);
   if (elimination_) {

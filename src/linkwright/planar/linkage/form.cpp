@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <string_view>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/formula.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/detail/form_parts.h"
 
@@ -120,13 +122,28 @@ LoadFactor table_of(const StrutForm& f, FormNames& names) {
   return table;
 }
 
+// The force by a formula, in the order of the values that push_of gives it.
+void set_formula(Strut& s, const std::string& text, FormNames& names) {
+  static constexpr math::FormulaName known[] = {
+      {"time", Dimension::time}, {"s", Dimension::length}, {"v", Dimension::speed}};
+  math::FormulaError error;
+  auto formula = math::Formula::read(text, Dimension::force, known, error);
+  if (!formula)
+    return names.problem("formula", fmt::format("column {}: {}", error.column, error.message),
+                         "write for example \"200 N + 15 N/mm * (s - 20 mm)\"");
+  s.factor.against = formula->uses(0)   ? LoadArgument::time
+                     : formula->uses(2) ? LoadArgument::speed
+                                        : LoadArgument::length;
+  s.formula = std::make_shared<const math::Formula>(*std::move(formula));
+}
+
 Strut strut_of(const StrutForm& f, FormNames& names) {
   Strut s{.name = f.name, .first = names.point("first", f.first), .second = names.point("second", f.second)};
-  const int laws = (f.force ? 1 : 0) + (f.gas ? 1 : 0) + (f.cylinder ? 1 : 0) +
+  const int laws = (f.force ? 1 : 0) + (f.gas ? 1 : 0) + (f.cylinder ? 1 : 0) + (f.formula ? 1 : 0) +
                    (f.force_table || f.against != LoadArgument::constant ? 1 : 0);
   if (laws != 1)
     names.problem("name", fmt::format("strut '{}' has {}", f.name, laws == 0 ? "no force" : "several forces"),
-                  "give one of force_N, force_table_N, gas and cylinder");
+                  "give one of force_N, force_table_N, gas, cylinder and formula");
   s.force = f.force.value_or(1);
   if (f.against != LoadArgument::constant)
     s.factor = table_of(f, names);
@@ -145,6 +162,7 @@ Strut strut_of(const StrutForm& f, FormNames& names) {
   }
   if (f.cylinder)
     s.cylinder = Cylinder{f.cylinder->bore, f.cylinder->rod, f.cylinder->pressure, f.cylinder->back_pressure};
+  if (f.formula) set_formula(s, *f.formula, names);
   return s;
 }
 
@@ -155,6 +173,8 @@ StrutForm form_of(const Strut& s, std::string first, std::string second, bool ro
   } else if (s.cylinder) {
     f.cylinder =
         CylinderForm{s.cylinder->bore, s.cylinder->rod, s.cylinder->pressure, s.cylinder->back_pressure};
+  } else if (s.formula) {
+    f.formula = s.formula->text();
   } else if (s.factor.against == LoadArgument::constant) {
     f.force = s.force;
   } else {

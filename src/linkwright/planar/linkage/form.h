@@ -151,6 +151,7 @@ struct StrutForm {
   std::optional<double> period;
   std::optional<GasSpringForm> gas;
   std::optional<CylinderForm> cylinder;
+  std::optional<std::string> formula;
 };
 /// A value of a follower: of one that slides or of one that turns.
 struct FollowerValueForm {
@@ -515,6 +516,9 @@ void fields(Visitor&& visit, StrutForm& s) {
   visit(field::entry("gas", "gas spring, instead of a force or a table"), s.gas);
   visit(field::entry("cylinder", "cylinder with constant pressures, instead of a force or a table"),
         s.cylinder);
+  visit(field::entry("formula",
+                     "force as a formula of time, length s and speed v, \"200 N + 15 N/mm * (s - 20 mm)\""),
+        s.formula);
 }
 template <class Visitor>
 void follower_value(Visitor& visit, std::string_view key, std::string_view summary, FollowerValueForm& v) {

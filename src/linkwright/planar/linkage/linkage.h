@@ -3,6 +3,7 @@
 
 #include <array>
 #include <complex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,10 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/vector2.h"
 #include "linkwright/planar/cam/programme.h"
+
+namespace linkwright::math {
+class Formula;
+}
 
 namespace linkwright::planar {
 
@@ -338,6 +343,9 @@ struct Strut {
   LoadFactor factor;                      ///< factor of the force
   std::optional<GasSpring> gas = {};      ///< law of a gas spring instead
   std::optional<Cylinder> cylinder = {};  ///< law of a cylinder instead
+  /// Formula of the force by time, length and speed instead; `factor.against` says what it goes by first of
+  /// time, speed and length, and has no table.
+  std::shared_ptr<const math::Formula> formula = {};
 };
 
 /// A stop of a pin, slide or slot: its coordinate cannot pass a value. Rigid, it throws the joint back with a

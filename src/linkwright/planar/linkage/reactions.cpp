@@ -458,7 +458,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   f.loads.clear();
   f.iterations = 0;
   if (motion.status != Status::done) return nothing(f);
-  if (strut_beyond_stroke(l, plan, motion)) {
+  if (strut_without_force(l, plan, motion, time)) {
     f.status = Status::limit_reached;
     return nothing(f);
   }

@@ -2,10 +2,12 @@
 #include "linkwright/planar/linkage/strut.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/formula.h"
 #include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
@@ -54,6 +56,7 @@ Span span_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& mot
 double push_of(const Strut& s, const Span& span, bool turns, double time, double input) {
   if (s.gas) return gas_force(*s.gas, span.length);
   if (s.cylinder) return cylinder_force(*s.cylinder);
+  if (s.formula) return (*s.formula)(std::array{time, span.length, span.rate});
   switch (s.factor.against) {
     case LoadArgument::input:
       return s.force * factor_at(s.factor, input, turns);
@@ -72,6 +75,7 @@ double push_of(const Strut& s, const Span& span, bool turns, double time, double
 }
 
 bool stores_energy(const Strut& s) {
+  if (s.formula) return false;  // a law of its own, whose integral is not known
   return s.gas || s.cylinder || s.factor.against == LoadArgument::constant ||
          s.factor.against == LoadArgument::length;
 }
@@ -93,14 +97,20 @@ bool beyond_stroke(const Strut& s, double length) {
   return length > longest + rounding || length < longest - s.gas->stroke - rounding;
 }
 
-const Strut* strut_beyond_stroke(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion) {
-  for (const Strut& s : l.struts)
-    if (s.gas && beyond_stroke(s, span_of(l, plan, motion, s.first, s.second).length)) return &s;
+const Strut* strut_without_force(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                                 double time) {
+  for (const Strut& s : l.struts) {
+    if (!s.gas && !s.formula) continue;
+    const Span span = span_of(l, plan, motion, s.first, s.second);
+    if (s.gas ? beyond_stroke(s, span.length) : !std::isfinite(push_of(s, span, false, time, 0))) return &s;
+  }
   return nullptr;
 }
 
-Sentence stroke_text(const Strut& s, double length) {
-  LINKWRIGHT_REQUIRE(s.gas, "strut '{}' is not a gas spring", s.name);
+Sentence without_force_text(const Strut& s, double length) {
+  LINKWRIGHT_REQUIRE(s.gas || s.formula, "strut '{}' has a force at any length", s.name);
+  if (s.formula)
+    return say("the formula of strut '{}' has no value at a length of {}", s.name, millimetres(length, 5));
   return say("gas spring '{}' would be {} long; it goes from {} to {}", s.name, millimetres(length, 5),
              millimetres(s.gas->extended_length - s.gas->stroke, 5), millimetres(s.gas->extended_length, 5));
 }

@@ -63,21 +63,22 @@ double stored_energy(const Strut& strut, double length);
 /// @returns true if it cannot have that length
 bool beyond_stroke(const Strut& strut, double length);
 
-/// The first gas spring that is beyond its stroke.
+/// The first strut without a force: a gas spring beyond its stroke, or a formula that has no value.
 ///
 /// @param linkage the linkage
 /// @param plan its plan
-/// @param motion its motion
+/// @param motion its motion, velocities included
+/// @param time time (s)
 /// @returns the strut, which the linkage owns; null if there is none
-const Strut* strut_beyond_stroke(const Linkage& linkage, const LinkagePlan& plan,
-                                 const LinkageMotion& motion);
+const Strut* strut_without_force(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                                 double time);
 
-/// The length at which a gas spring would be beyond its stroke, for messages: "gas spring 's' would be 270 mm
-/// long; it goes from 276 to 356 mm".
+/// The reason why a strut has no force, for messages: "gas spring 's' would be 270 mm long; it goes from 276
+/// to 356 mm".
 ///
-/// @param strut the gas spring
+/// @param strut a strut of `strut_without_force`
 /// @param length distance of its ends (m)
 /// @returns the sentence
-Sentence stroke_text(const Strut& strut, double length);
+Sentence without_force_text(const Strut& strut, double length);
 
 }  // namespace linkwright::planar

@@ -219,7 +219,7 @@ bool Simulation::start(double t) {
     if (dynamics_.motion.status != Status::done) {
       report_.status = dynamics_.motion.status;
       report_.group = dynamics_.motion.failed_group;
-      report_.message = start_message(report_.status);
+      report_.message = start_message(report_.status, t);
       return false;
     }
   }
@@ -228,7 +228,7 @@ bool Simulation::start(double t) {
   if (answer.status != Status::done) {
     report_.status = answer.status;
     report_.group = dynamics_.motion.failed_group;
-    report_.message = start_message(answer.status);
+    report_.message = start_message(answer.status, t);
     return false;
   }
   remember();

@@ -60,12 +60,13 @@ bool Simulation::start_stops(double t, std::span<double> y) {
   return false;
 }
 
-Sentence Simulation::start_message(Status status) const {
+Sentence Simulation::start_message(Status status, double time) const {
   if (dynamics_.motion.failed_group >= 0)
     return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
-  if (const Strut* strut = strut_beyond_stroke(l_, plan_, dynamics_.motion))
+  if (const Strut* strut = strut_without_force(l_, plan_, dynamics_.motion, time))
     return "the start does not work: " +
-           stroke_text(*strut, span_of(l_, plan_, dynamics_.motion, strut->first, strut->second).length);
+           without_force_text(*strut,
+                              span_of(l_, plan_, dynamics_.motion, strut->first, strut->second).length);
   if (status == Status::singular)
     return "a free joint moves no mass, so its motion does not follow from the forces";
   if (status == Status::self_locking)

@@ -172,7 +172,7 @@ class Runner {
     if (!passed_.back()) failures_.add(statuses_.back(), motion, r);
     if (motion.status != Status::done || passed_.back()) return;
     if (!strut_beyond_ && statuses_.back() == Status::limit_reached) {
-      strut_beyond_ = strut_beyond_stroke(s_.linkage, s_.plan, motion);
+      strut_beyond_ = strut_without_force(s_.linkage, s_.plan, motion, solver_.now.time);
       if (strut_beyond_)
         strut_length_ =
             span_of(s_.linkage, s_.plan, motion, strut_beyond_->first, strut_beyond_->second).length;
@@ -485,8 +485,9 @@ class Runner {
             say("{} lock by friction: no force of the drive, however large, keeps the linkage moving", place),
             "less friction, or a position farther from the dead point, frees it");
       else if (s == Status::limit_reached && strut_beyond_)
-        warn(say("{} are beyond a stroke: {}", place, stroke_text(*strut_beyond_, strut_length_)),
-             "end the sweep there, or take a longer gas spring");
+        warn(say("{} have no forces: {}", place, without_force_text(*strut_beyond_, strut_length_)),
+             strut_beyond_->gas ? "end the sweep there, or take a longer gas spring"
+                                : "end the sweep there, or change the formula");
       else
         warn(say("{} have no answer ({})", place, to_string(s)),
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");

@@ -72,7 +72,7 @@ class Simulation {
   // ---- start, steps, output -----------------------------------------------------------------------------
 
   bool start(double t);
-  Sentence start_message(Status status) const;
+  Sentence start_message(Status status, double time) const;
   // The motion where inputs_ say, accelerations included.
   const LinkageMotion& placed();
   double kinetic(double inertia) const;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+
+/// Formulas of study files: "200 N + 15 N/mm * (s - 20 mm)". Numbers have units, and what does not fit is
+/// refused when a formula is read; it is computed without allocation, in SI units.
+namespace linkwright::math {
+
+/// The exponents of metre, kilogram and second of a quantity, in halves. Angles are numbers.
+struct Powers {
+  std::array<int, 3> halves{};
+  friend bool operator==(const Powers&, const Powers&) = default;
+};
+
+/// A quantity that a formula may name.
+struct FormulaName {
+  std::string_view name;
+  Dimension dimension = Dimension::none;
+};
+
+/// What is wrong with a formula, and where: columns count from 1.
+struct FormulaError {
+  std::size_t column = 0;
+  std::string message;
+};
+
+class Formula {
+ public:
+  /// The deepest nesting of a formula, and the largest number of characters.
+  static constexpr int max_depth = 64;
+  static constexpr std::size_t max_length = 2000;
+
+  /// Reads a formula whose value is of the dimension `result`. Allowed are + - * / ^ with constant exponents,
+  /// sin cos tan asin acos atan atan2 sqrt abs min max exp log sign floor mod, if(condition, value, other
+  /// value) with < <= > >= == and or not, pi, and `names`. A unit follows its number: 15 N/mm, without blanks
+  /// in it. Nothing, and `error`, if the text is no such formula.
+  static std::optional<Formula> read(std::string_view text, Dimension result,
+                                     std::span<const FormulaName> names, FormulaError& error);
+
+  /// The value for the values of the names, in SI units: infinite or not a number where it has none.
+  double operator()(std::span<const double> values) const;
+
+  /// True if the value of a name matters, by its index.
+  bool uses(std::size_t name) const;
+  const std::string& text() const { return text_; }
+
+ private:
+  friend class FormulaReader;
+  enum class Code : std::uint8_t {
+    number,
+    name,
+    negative,
+    plus,
+    minus,
+    times,
+    over,
+    power,
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    equal,
+    both,
+    either,
+    opposite,
+    choose,
+    sine,
+    cosine,
+    tangent,
+    arc_sine,
+    arc_cosine,
+    arc_tangent,
+    arc_tangent2,
+    root,
+    magnitude,
+    least,
+    greatest,
+    exponential,
+    logarithm,
+    sign,
+    whole,
+    remainder
+  };
+  struct Step {
+    Code code = Code::number;
+    double value = 0;       ///< number, exponent
+    std::size_t index = 0;  ///< of a name
+  };
+
+  std::string text_;
+  std::vector<Step> steps_;  ///< in the order of a stack
+};
+
+}  // namespace linkwright::math
