@@ -104,9 +104,6 @@ std::optional<FormulaUnit> unit_named(std::string_view name) {
 bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// How a function treats its arguments.
-enum class Takes { number, same, root, ratio, sign };
-
 }  // namespace
 
 // Reads by recursive descent; the steps are written in the order in which a stack takes them.
@@ -410,6 +407,8 @@ class FormulaReader {
     return Kind{{}, false, value == 0};
   }
 
+  /// How a function treats its arguments.
+  enum class Takes { number, same, root, ratio, sign };
   struct Function {
     std::string_view name;
     Code code;

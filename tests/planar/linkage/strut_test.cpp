@@ -285,21 +285,21 @@ TEST(Strut, FormsCarryEveryLaw) {
   add("constant").force = 3;
   add("gas").gas = GasSpringForm{900.0, 0.356, 0.08, 1.35};
   add("cylinder").cylinder = CylinderForm{0.1, 0.05, 1e6, 1e5};
+  add("formula").formula = "3 N + 2 N/mm * s";
   StrutForm& table = add("table");
   table.against = LoadArgument::time;
   table.times = {0.0, 1.0};
   table.force_table = {5.0, 6.0};
-  add("formula").formula = "3 N + 2 N/mm * s";
   std::vector<FormProblem> problems;
   const LinkageForm again = form_of(linkage_of(form, problems));
   ASSERT_TRUE(problems.empty()) << to_string(problems[0].message);
   ASSERT_EQ(again.struts.size(), 5u);
-  EXPECT_EQ(again.struts[4].formula, "3 N + 2 N/mm * s");
+  EXPECT_EQ(again.struts[3].formula, "3 N + 2 N/mm * s");
   EXPECT_EQ(again.struts[0].force, 3);
   EXPECT_EQ(again.struts[1].gas->extended_length, 0.356);
   EXPECT_EQ(again.struts[2].cylinder->back_pressure, 1e5);
-  EXPECT_EQ(again.struts[3].times, table.times);
-  EXPECT_EQ(again.struts[3].force_table, table.force_table);
+  EXPECT_EQ(again.struts[4].times, table.times);
+  EXPECT_EQ(again.struts[4].force_table, table.force_table);
 }
 
 TEST(Strut, PreloadOfASpringGivesItsFreeLength) {
