@@ -206,6 +206,14 @@ TEST(Strut, AFormulaWithoutAValueIsNamed) {
   EXPECT_EQ(swept.status, Status::limit_reached);
   EXPECT_THAT(lines_of(swept.diagnostics),
               HasSubstr("the formula of strut 'lift' has no value at a length of 30"));
+  const std::string motion =
+      "[drive]\njoint = \"O\"\nfree = true\nstart_deg = 30.0\n[simulation]\nto_s = 0.6\n";
+  const study::Result moved =
+      run_text(replaced(bonnet(strut("formula = \"700 N * sqrt(0.3 - time / (1 s))\""), motion),
+                        "\"analysis\"", "\"simulation\""));
+  EXPECT_EQ(moved.status, Status::limit_reached);
+  EXPECT_THAT(lines_of(moved.diagnostics),
+              HasSubstr("the formula of strut 'lift' has no value from there on"));
   const auto wrong = [](const std::string& text) {
     return problems_of(bonnet(strut("formula = \"" + text + "\""), sweep));
   };

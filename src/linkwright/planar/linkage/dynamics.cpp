@@ -291,7 +291,8 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
     scale_velocities(inputs[0].rate);
   else
     solve_velocity(plan_, inputs, motion);
-  if (strut_without_force(linkage_, plan_, motion, time)) return failed(Status::limit_reached);
+  without_force = strut_without_force(linkage_, plan_, motion, time);
+  if (without_force) return failed(Status::limit_reached);
   solve_acceleration(plan_, inputs, motion);
   needed_wrenches(time, inputs[0].value);
   if (elimination_) {

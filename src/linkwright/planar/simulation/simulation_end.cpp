@@ -136,6 +136,8 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
 }
 
 Sentence Simulation::end_of_stroke() {
+  if (const Strut* strut = dynamics_.without_force; strut && strut->formula)
+    return say("the formula of strut '{}' has no value from there on", strut->name);
   constexpr double near = 1e-3;  // of the stroke: the last step ends before its end
   solve_position(plan_, inputs_, dynamics_.motion);
   if (dynamics_.motion.status != Status::done) return {};

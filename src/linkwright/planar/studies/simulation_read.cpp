@@ -138,6 +138,24 @@ bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescrip
   return true;
 }
 
+// A screw that forces move has the friction of its thread and the inertia of its spindle against it, which
+// the equations of motion do not have.
+void refuse_free_screws(study::ObjectReader& document, const Linkage& l,
+                        const std::vector<InputDrive>& drives) {
+  for (std::size_t k = 0; k < l.joints.size(); ++k) {
+    const LinkageJoint& j = l.joints[k];
+    if (!j.screw || !(j.screw->friction > 0 || j.screw->spindle_inertia > 0)) continue;
+    const auto input = std::find(l.driven.begin(), l.driven.end(), static_cast<int>(k)) - l.driven.begin();
+    if (static_cast<std::size_t>(input) < drives.size() && drives[static_cast<std::size_t>(input)].law)
+      continue;
+    document.error("simulation",
+                   fmt::format("screw '{}' has no drive with a law, and forces would have to overcome its "
+                               "thread and its spindle, which a simulation does not take",
+                               j.name),
+                   "give it a drive with a law, or leave out its friction and the inertia of its spindle");
+  }
+}
+
 // Bodies that the inputs alone place begin where these start, whatever their own `start` says.
 void warn_of_unused_starts(study::ObjectReader& document, const LinkageDescription& d,
                            const std::vector<InputDrive>& drives, double time) {
@@ -217,6 +235,7 @@ study::Prepared prepare_simulation(study::ObjectReader& document, const study::C
                    "leave the flexible bodies or this part out, or join the wheels by a gear");
   Value::Array drives, beams;
   s.drives = read_input_drives(document, *description, drives);
+  refuse_free_screws(document, description->linkage, s.drives);
   s.elastic = read_elastic(document, description->linkage, beams);
   if (!document.document().has_errors())
     warn_of_unused_starts(document, *description, s.drives, s.from - s.settle);
