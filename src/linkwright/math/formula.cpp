@@ -529,6 +529,80 @@ bool Formula::uses(std::size_t name) const {
                      [&](const Step& s) { return s.code == Code::name && s.index == name; });
 }
 
+double Formula::of_one(const Step& step, double a) {
+  switch (step.code) {
+    case Code::negative:
+      return -a;
+    case Code::power:
+      return std::pow(a, step.value);
+    case Code::opposite:
+      return a == 0;
+    case Code::sine:
+      return std::sin(a);
+    case Code::cosine:
+      return std::cos(a);
+    case Code::tangent:
+      return std::tan(a);
+    case Code::arc_sine:
+      return std::asin(a);
+    case Code::arc_cosine:
+      return std::acos(a);
+    case Code::arc_tangent:
+      return std::atan(a);
+    case Code::root:
+      return std::sqrt(a);
+    case Code::magnitude:
+      return std::abs(a);
+    case Code::exponential:
+      return std::exp(a);
+    case Code::logarithm:
+      return std::log(a);
+    case Code::sign:
+      return static_cast<double>((a > 0) - (a < 0));
+    case Code::whole:
+      return std::floor(a);
+    default:
+      return nan;
+  }
+}
+
+double Formula::of_two(Code code, double a, double b) {
+  switch (code) {
+    case Code::plus:
+      return a + b;
+    case Code::minus:
+      return a - b;
+    case Code::times:
+      return a * b;
+    case Code::over:
+      return a / b;
+    case Code::less:
+      return a < b;
+    case Code::less_equal:
+      return a <= b;
+    case Code::greater:
+      return a > b;
+    case Code::greater_equal:
+      return a >= b;
+    case Code::equal:
+      return a == b;
+    case Code::both:
+      return a != 0 && b != 0;
+    case Code::either:
+      return a != 0 || b != 0;
+    case Code::arc_tangent2:
+      return std::atan2(a, b);
+    case Code::least:
+      return std::min(a, b);
+    case Code::greatest:
+      return std::max(a, b);
+    case Code::remainder:
+      return a - b * std::floor(a / b);
+    default:
+      return nan;
+  }
+}
+
 double Formula::operator()(std::span<const double> values) const {
   // Each level of nesting keeps a value at each of its five sorts of signs, and two of a choice.
   std::array<double, 8 * max_depth> stack;
@@ -536,114 +610,14 @@ double Formula::operator()(std::span<const double> values) const {
   for (const Step& s : steps_) {
     if (s.code == Code::number || s.code == Code::name) {
       stack[n++] = s.code == Code::number ? s.value : values[s.index];
-      continue;
-    }
-    if (s.code == Code::choose) {
+    } else if (s.code == Code::choose) {
       n -= 2;
       stack[n - 1] = stack[n - 1] != 0 ? stack[n] : stack[n + 1];
-      continue;
-    }
-    const bool unary = s.code == Code::negative || s.code == Code::power || s.code == Code::opposite ||
-                       (s.code >= Code::sine && s.code <= Code::arc_tangent) || s.code == Code::root ||
-                       s.code == Code::magnitude || (s.code >= Code::exponential && s.code <= Code::whole);
-    if (!unary) --n;
-    double& a = stack[n - 1];
-    const double b = unary ? 0 : stack[n];
-    switch (s.code) {
-      case Code::number:
-      case Code::name:
-      case Code::choose:
-        break;
-      case Code::negative:
-        a = -a;
-        break;
-      case Code::plus:
-        a += b;
-        break;
-      case Code::minus:
-        a -= b;
-        break;
-      case Code::times:
-        a *= b;
-        break;
-      case Code::over:
-        a /= b;
-        break;
-      case Code::power:
-        a = std::pow(a, s.value);
-        break;
-      case Code::less:
-        a = a < b;
-        break;
-      case Code::less_equal:
-        a = a <= b;
-        break;
-      case Code::greater:
-        a = a > b;
-        break;
-      case Code::greater_equal:
-        a = a >= b;
-        break;
-      case Code::equal:
-        a = a == b;
-        break;
-      case Code::both:
-        a = a != 0 && b != 0;
-        break;
-      case Code::either:
-        a = a != 0 || b != 0;
-        break;
-      case Code::opposite:
-        a = a == 0;
-        break;
-      case Code::sine:
-        a = std::sin(a);
-        break;
-      case Code::cosine:
-        a = std::cos(a);
-        break;
-      case Code::tangent:
-        a = std::tan(a);
-        break;
-      case Code::arc_sine:
-        a = std::asin(a);
-        break;
-      case Code::arc_cosine:
-        a = std::acos(a);
-        break;
-      case Code::arc_tangent:
-        a = std::atan(a);
-        break;
-      case Code::arc_tangent2:
-        a = std::atan2(a, b);
-        break;
-      case Code::root:
-        a = std::sqrt(a);
-        break;
-      case Code::magnitude:
-        a = std::abs(a);
-        break;
-      case Code::least:
-        a = std::min(a, b);
-        break;
-      case Code::greatest:
-        a = std::max(a, b);
-        break;
-      case Code::exponential:
-        a = std::exp(a);
-        break;
-      case Code::logarithm:
-        a = std::log(a);
-        break;
-      case Code::sign:
-        a = static_cast<double>((a > 0) - (a < 0));
-        break;
-      case Code::whole:
-        a = std::floor(a);
-        break;
-      case Code::remainder:
-        a = a - b * std::floor(a / b);
-        break;
+    } else if (s.code >= first_of_two) {
+      --n;
+      stack[n - 1] = of_two(s.code, stack[n - 1], stack[n]);
+    } else {
+      stack[n - 1] = of_one(s, stack[n - 1]);
     }
   }
   return stack[0];

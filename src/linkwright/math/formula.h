@@ -55,15 +55,30 @@ class Formula {
 
  private:
   friend class FormulaReader;
+  /// Numbers, names and choices, what takes one value, and from `plus` on what takes two.
   enum class Code : std::uint8_t {
     number,
     name,
+    choose,
     negative,
+    power,
+    opposite,
+    sine,
+    cosine,
+    tangent,
+    arc_sine,
+    arc_cosine,
+    arc_tangent,
+    root,
+    magnitude,
+    exponential,
+    logarithm,
+    sign,
+    whole,
     plus,
     minus,
     times,
     over,
-    power,
     less,
     less_equal,
     greater,
@@ -71,30 +86,20 @@ class Formula {
     equal,
     both,
     either,
-    opposite,
-    choose,
-    sine,
-    cosine,
-    tangent,
-    arc_sine,
-    arc_cosine,
-    arc_tangent,
     arc_tangent2,
-    root,
-    magnitude,
     least,
     greatest,
-    exponential,
-    logarithm,
-    sign,
-    whole,
     remainder
   };
+  static constexpr Code first_of_two = Code::plus;
   struct Step {
     Code code = Code::number;
     double value = 0;       ///< number, exponent
     std::size_t index = 0;  ///< of a name
   };
+
+  static double of_one(const Step& step, double a);
+  static double of_two(Code code, double a, double b);
 
   std::string text_;
   std::vector<Step> steps_;  ///< in the order of a stack

@@ -180,6 +180,18 @@ TEST(Strut, FormulasAreTheTablesThatTheyDescribe) {
   const study::Result damper = analysed("formula = \"-if(v > 0, 1, 2) * 1000 N*s/m * v\"");
   EXPECT_NEAR(column(damper, "lift_force_N")[40], -1000 * column(damper, "lift_speed_m_per_s")[40], 1e-9);
   EXPECT_EQ(damper.tables[0].find("lift_energy_J"), nullptr);
+  // What a formula goes by besides time is not forgotten.
+  LinkageForm form;
+  form.bodies = {{.name = "ground", .points = {{"O", {0, 0}}}},
+                 {.name = "arm", .points = {{"O", {0, 0}}, {"A", {1, 0}}}}};
+  form.joints = {{.name = "O", .first = "ground.O", .second = "arm.O"}};
+  for (const char* text : {"1 N/s * time + 1 N*s/m * v", "1 N/s * time"})
+    form.struts.push_back({.name = text, .first = "ground.O", .second = "arm.A", .formula = text});
+  std::vector<FormProblem> problems;
+  const Linkage both = linkage_of(form, problems);
+  EXPECT_TRUE(depends_on_speed(both.struts[0]));
+  EXPECT_FALSE(depends_on_speed(both.struts[1]));
+  EXPECT_EQ(both.struts[0].factor.against, LoadArgument::time);
 }
 
 // A formula of the length alone is no stored energy, but its work closes the balance all the same.

@@ -80,6 +80,10 @@ bool stores_energy(const Strut& s) {
          s.factor.against == LoadArgument::length;
 }
 
+bool depends_on_speed(const Strut& s) {
+  return s.formula ? s.formula->uses(2) : s.factor.against == LoadArgument::speed;
+}
+
 double stored_energy(const Strut& s, double length) {
   if (!stores_energy(s)) return 0;
   if (s.gas) {

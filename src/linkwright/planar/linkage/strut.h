@@ -48,6 +48,12 @@ double push_of(const Strut& strut, const Span& span, bool turns, double time, do
 /// @returns true if it stores energy
 bool stores_energy(const Strut& strut);
 
+/// True if the force of a strut depends on the speed at which its ends part.
+///
+/// @param strut the strut
+/// @returns true if it does
+bool depends_on_speed(const Strut& strut);
+
 /// Energy that a strut stores.
 ///
 /// @param strut the strut

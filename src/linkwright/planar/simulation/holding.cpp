@@ -6,6 +6,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/minimum.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/dynamics.h"
 
@@ -190,14 +191,10 @@ class StuckLinkage {
 
 // A size of the load that the linkage holds, by halving an interval about the least share, which is convex.
 double held_size(StuckLinkage& linkage, double width) {
-  const double golden = (3 - std::sqrt(5.0)) / 2;
-  double low = -width, high = width;
-  for (int i = 0; i < 200; ++i) {
-    const double a = low + golden * (high - low), b = high - golden * (high - low);
-    const double at_a = linkage.share(a, 1), at_b = linkage.share(b, 1);
-    if (at_a <= 1) return a;
-    if (at_b <= 1) return b;
-    (at_a <= at_b ? high : low) = at_a <= at_b ? b : a;
+  math::GoldenSection section{[&](double size) { return linkage.share(size, 1); }, -width, width};
+  for (int i = 0; i < 200; ++i, section.narrow()) {
+    if (section.at_left <= 1) return section.left;
+    if (section.at_right <= 1) return section.right;
   }
   return nan;
 }

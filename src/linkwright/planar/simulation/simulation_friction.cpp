@@ -109,23 +109,24 @@ bool Simulation::start_friction(double t) {
   return true;
 }
 
-void Simulation::friction_values(double t, std::span<const double> y, std::span<double> values) {
+bool Simulation::place_at(double t, std::span<const double> y, bool forces) {
   put(t, y);
+  if (forces) return solve_here(t) == Status::done;
+  if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
+  solve_position(plan_, inputs_, dynamics_.motion);
+  const bool placed = dynamics_.motion.status == Status::done;
+  if (placed)
+    solve_velocity(plan_, inputs_, dynamics_.motion);
+  else
+    restore();
+  return placed;
+}
+
+void Simulation::friction_values(double t, std::span<const double> y, std::span<double> values) {
   const FrictionStates& states = *dynamics_.states;
   const bool forces =
       any_sticks() || std::any_of(rubbing_.begin(), rubbing_.end(), [](const Rubbing& r) { return r.slide; });
-  bool placed = false;
-  if (forces) {
-    placed = solve_here(t) == Status::done;
-  } else {
-    if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
-    solve_position(plan_, inputs_, dynamics_.motion);
-    placed = dynamics_.motion.status == Status::done;
-    if (placed)
-      solve_velocity(plan_, inputs_, dynamics_.motion);
-    else
-      restore();
-  }
+  const bool placed = place_at(t, y, forces);
   double largest = 0;
   if (forces && placed)
     for (const JointReaction& r : dynamics_.forces().joints) largest = std::max(largest, norm(r.force));

@@ -166,19 +166,7 @@ Status Simulation::solve_pressed(double t) {
 }
 
 void Simulation::stop_values(double t, std::span<const double> y, std::span<double> values) {
-  put(t, y);
-  bool placed = false;
-  if (any_closed()) {
-    placed = solve_here(t) == Status::done;
-  } else {
-    if (branch_) branch_->set_modes(inputs_[0].value, dynamics_.motion);
-    solve_position(plan_, inputs_, dynamics_.motion);
-    placed = dynamics_.motion.status == Status::done;
-    if (placed)
-      solve_velocity(plan_, inputs_, dynamics_.motion);
-    else
-      restore();
-  }
+  const bool placed = place_at(t, y, any_closed());
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     Contact& c = contacts_[k];
     if (placed) {

@@ -16,6 +16,7 @@
 #include "linkwright/math/minimum.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/detail/cam_follower.h"
+#include "linkwright/planar/linkage/strut.h"
 #include "linkwright/planar/studies/cam.h"
 #include "linkwright/planar/studies/linkage_rows.h"
 #include "linkwright/study/remarks.h"
@@ -237,7 +238,8 @@ class CamReporter {
            std::any_of(l.torsion_springs.begin(), l.torsion_springs.end(),
                        [](const auto& s) { return s.damping > 0; }) ||
            std::any_of(l.torques.begin(), l.torques.end(), by_speed) ||
-           std::any_of(l.struts.begin(), l.struts.end(), by_speed) ||
+           std::any_of(l.struts.begin(), l.struts.end(),
+                       [](const Strut& s) { return planar::depends_on_speed(s); }) ||
            std::any_of(l.joints.begin(), l.joints.end(), [](const auto& j) { return loses_power(j); });
   }
   Measured place(double input) const { return input_place(s_.linkage, s_.plan, 0, input, 6); }

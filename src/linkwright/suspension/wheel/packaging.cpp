@@ -8,6 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/minimum.h"
 #include "linkwright/suspension/corner/detail/rockers_kernel.h"
 
 namespace linkwright::suspension {
@@ -44,12 +45,9 @@ double distance_to_box(const Vec3& point, const Box& box) {
 /// The least value of a function between two arguments where it has one minimum, by golden sections.
 template <class Function>
 double least_between(double low, double high, Function&& value) {
-  constexpr double golden = 0.6180339887498949;
-  for (int i = 0; i < 60; ++i) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    value(a) < value(b) ? high = b : low = a;
-  }
-  return value((low + high) / 2);
+  math::GoldenSection section{value, low, high};
+  for (int i = 0; i < 60; ++i) section.narrow();
+  return std::min(section.at_left, section.at_right);
 }
 
 /// The least value of a function between 0 and 1 that may have several minima: the least of a row of points

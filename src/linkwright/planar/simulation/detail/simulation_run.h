@@ -135,6 +135,8 @@ class Simulation {
   double rate_of(int joint) const;
   // Solves at the place of the inputs itself, also near change points.
   Status solve_here(double t);
+  // Places the linkage at a state, with velocities, and with forces where they are asked for.
+  bool place_at(double t, std::span<const double> y, bool forces);
   void friction_values(double t, std::span<const double> y, std::span<double> values);
   math::OdeAction friction_event(double t, std::span<const std::size_t> which, std::span<double> y);
   // States of the joints that stick and of those given by `stops`; reports what changes.
