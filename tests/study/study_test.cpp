@@ -158,10 +158,9 @@ TEST(Study, UnknownKeysOnEveryLevel) {
             "s.toml:14:2: error: optimizer: unknown key; did you mean 'optimiser'?\n");
   EXPECT_THAT(messages("first = 1", "frst = 1"),
               HasSubstr("optimiser.seeds.frst: unknown key; did you mean 'first'?"));
-  EXPECT_THAT(
-      messages("[optimiser]", "[output]\nfolder = 'x'\n[optimiser]"),
-      HasSubstr(
-          "output.folder: unknown key; allowed here: dir, formats, samples, units, digits, quantities"));
+  EXPECT_THAT(messages("[optimiser]", "[output]\nfolder = 'x'\n[optimiser]"),
+              HasSubstr("output.folder: unknown key; allowed here: dir, formats, samples, units, digits, "
+                        "parts, quantities"));
 }
 
 TEST(Study, KeysOfOtherTablesAreSentHome) {
@@ -178,10 +177,11 @@ TEST(Study, KeysOfOtherTablesAreSentHome) {
 }
 
 TEST(Study, OutputWords) {
-  EXPECT_EQ(messages("[optimiser]", "[output]\nformats = ['jsn']\n[optimiser]"),
-            "s.toml:15:12: error: output.formats[0]: is 'jsn', must be one of: json, csv, html, svg, dxf; "
-            "did you mean "
-            "'json'?\n");
+  EXPECT_EQ(
+      messages("[optimiser]", "[output]\nformats = ['jsn']\n[optimiser]"),
+      "s.toml:15:12: error: output.formats[0]: is 'jsn', must be one of: json, csv, html, svg, dxf, step; "
+      "did you mean "
+      "'json'?\n");
   EXPECT_EQ(
       messages("[optimiser]", "[output]\nquantities = ['hight']\n[optimiser]"),
       "s.toml:15:14: error: output.quantities: 'hight' is none of: angle, height; did you mean 'height'?\n");

@@ -21,6 +21,7 @@
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/dxf.h"
 #include "linkwright/report/html.h"
+#include "linkwright/report/step.h"
 #include "linkwright/report/svg.h"
 #include "linkwright/study/design.h"
 #include "linkwright/study/overrides.h"
@@ -220,6 +221,12 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       write(scene.name + ".svg", report::svg(scene, {.length = report::chosen_length(units)}));
   if (wants(study, study::Format::dxf))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
+  if (wants(study, study::Format::step))
+    for (const study::Scene& scene : result.scenes)
+      if (const std::string solids =
+              report::step(scene, study.common.output.parts.value_or(study::PartSizes{}));
+          !solids.empty())
+        write(scene.name + ".step", solids);
   if (wants(study, study::Format::html)) write("report.html", report_text(study, shown, outcome, json));
   for (const study::ResultFile& file : result.files) write(file.name, file.text);
   for (std::size_t i = 0; i < result.solutions.size(); ++i) {

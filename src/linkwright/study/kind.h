@@ -181,14 +181,16 @@ enum class Format {
   csv,   ///< one file for each table
   html,  ///< report.html: the report for people
   svg,   ///< a drawing of each solution
-  dxf    ///< a drawing of each solution for CAD, in millimetres, 1:1
+  dxf,   ///< a drawing of each solution for CAD, in millimetres, 1:1
+  step   ///< the links of each solution as solids for CAD, with pins and holes
 };
-constexpr std::array<EnumName<Format>, 5> names(Format) {
+constexpr std::array<EnumName<Format>, 6> names(Format) {
   return {{{Format::json, "json", "result.json: everything"},
            {Format::csv, "csv", "one file for each table"},
            {Format::html, "html", "report.html: the report for people"},
            {Format::svg, "svg", "a drawing of each solution"},
-           {Format::dxf, "dxf", "a drawing of each solution for CAD, in millimetres, 1:1"}}};
+           {Format::dxf, "dxf", "a drawing of each solution for CAD, in millimetres, 1:1"},
+           {Format::step, "step", "the links of each solution as solids for CAD, with pins and holes"}}};
 }
 
 /// Digits of the numbers in result.json and CSV.
@@ -201,6 +203,21 @@ constexpr std::array<EnumName<Digits>, 2> names(Digits) {
            {Digits::six, "six", "six significant digits"}}};
 }
 
+/// `[output.parts]` of a study: the sizes of flat links in STEP files. What is not given follows from the
+/// size of the mechanism.
+struct PartSizes {
+  std::optional<double> width;         ///< m, of bars, and twice the radius of the corners of plates
+  std::optional<double> thickness;     ///< m
+  std::optional<double> pin_diameter;  ///< m, of pins and holes
+};
+template <class Visitor>
+void fields(Visitor&& visit, PartSizes& p) {
+  visit(field::length("width", "width of bars (5 % of the size of the mechanism)").positive(), p.width);
+  visit(field::length("thickness", "thickness of the links (2 %)").positive(), p.thickness);
+  visit(field::length("pin_diameter", "diameter of the pins and their holes (2 %)").positive(),
+        p.pin_diameter);
+}
+
 /// `[output]` of a study.
 struct Output {
   std::string dir;  ///< folder, relative to the current one; empty = "out/" and the name of the study file
@@ -208,6 +225,7 @@ struct Output {
   int samples = 361;                    ///< number of samples of curves and animations
   OutputUnits units;                    ///< units of tables, parameters and objectives in result.json and CSV
   Digits digits = Digits::full;         ///< digits of the numbers in result.json and CSV
+  std::optional<PartSizes> parts;       ///< sizes of the links in STEP files
   std::vector<std::string> quantities;  ///< out of Kind::quantities; empty = all
 };
 template <class Visitor>
@@ -217,6 +235,7 @@ void fields(Visitor&& visit, Output& o) {
   visit(field::entry("samples", "samples of curves and animations").between(2, 100000), o.samples);
   visit(field::entry("units", "units of the numbers in result.json and CSV"), o.units);
   visit(field::entry("digits", "digits of the numbers in result.json and CSV"), o.digits);
+  visit(field::entry("parts", "sizes of the links in STEP files"), o.parts);
 }
 
 /// `[optimiser] seeds` of a study: the seeds first, first + 1, ..., each an independent run.

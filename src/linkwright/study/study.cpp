@@ -106,6 +106,9 @@ void read_output(ObjectReader& root, const Kind* kind, Output& output) {
                   [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
     table->error("dir", "has a special character in it, which a backslash in double quotes makes",
                  "use / in paths, or single quotes");
+  if (output.parts && output.parts->width && output.parts->pin_diameter &&
+      !(*output.parts->width > *output.parts->pin_diameter))
+    table->error("parts", "the pins are as wide as the links", "make pin_diameter smaller than width");
   if (!kind) {
     table->members();
     return;
