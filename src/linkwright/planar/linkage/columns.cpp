@@ -13,6 +13,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"
+#include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/screw.h"
 #include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/linkage/strut.h"
@@ -113,6 +114,10 @@ struct SlideMotion {
 };
 SlideMotion slide_motion(const Linkage& l, const LinkagePlan& plan, const LinkageInstant& i, std::size_t j) {
   const LinkageJoint& joint = l.joints[j];
+  if (joint.slot) {
+    const JointMotion m = joint_motion(l, plan, *i.motion, static_cast<int>(j));
+    return {m.value, m.rate, m.acceleration};
+  }
   const auto place = [&](const BodyPoint& p) {
     return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
   };
@@ -355,7 +360,8 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
   const auto slides = [&](const auto& rows, bool with_inputs) {
     for (std::size_t j = 0; j < l.joints.size(); ++j) {
       const bool driven = std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end();
-      if (l.joints[j].type == JointType::prismatic && (with_inputs || !driven))
+      const bool slides = l.joints[j].type == JointType::prismatic || l.joints[j].slot;
+      if (slides && (with_inputs || !driven))
         add_columns(out, rows, identifier(l.joints[j].name) + "_", l.joints[j].name + " ",
                     [&l, &plan, j](const LinkageInstant& i) { return slide_motion(l, plan, i, j); });
     }

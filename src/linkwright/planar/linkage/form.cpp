@@ -239,6 +239,30 @@ void set_friction(LinkageJoint& j, const JointForm& f, FormNames& names) {
   j.friction_fall = f.friction_fall.value_or(FrictionFall::stribeck);
 }
 
+// The curve of a slot.
+std::optional<CurvedSlot> slot_of(const JointForm& f, FormNames& names) {
+  if (!f.curve) return std::nullopt;
+  const CurvedSlotForm& c = *f.curve;
+  const bool is_arc = c.centre || c.radius || c.from || c.to;
+  if (f.type != JointType::pin_in_slot)
+    names.problem("curve", fmt::format("joint '{}' is not a pin_in_slot, and has a curve", f.name),
+                  "leave the curve out, or set type = \"pin_in_slot\"");
+  if (is_arc && !c.points.empty())
+    names.problem("curve", fmt::format("the slot of joint '{}' has points and an arc", f.name), "leave one");
+  if (is_arc && !c.radius)
+    names.problem("curve", fmt::format("the arc of the slot of joint '{}' has no radius", f.name),
+                  "give radius_mm beside centre_mm");
+  if (is_arc && c.from.has_value() != c.to.has_value())
+    names.problem("curve", fmt::format("the arc of the slot of joint '{}' has one end", f.name),
+                  "give from_deg and to_deg, or neither for a circle");
+  CurvedSlot out{.points = {}, .closed = c.closed};
+  for (const Place& p : c.points) out.points.push_back(number(p));
+  if (c.centre) out.centre = number(*c.centre);
+  out.radius = c.radius.value_or(0);
+  if (c.from && c.to) out.from = *c.from, out.to = *c.to;
+  return out;
+}
+
 LinkageJoint joint_of(const JointForm& f, bool drawn, FormNames& names) {
   LinkageJoint j{.name = f.name, .type = f.type};
   if (f.type == JointType::gear) {
@@ -250,9 +274,10 @@ LinkageJoint joint_of(const JointForm& f, bool drawn, FormNames& names) {
     if (f.ratio_curve) j.curve = RatioCurve{f.ratio_curve->first, f.ratio_curve->second};
     j.efficiency = f.efficiency.value_or(1);
   } else {
-    j.first = names.point("first", f.first);
+    j.first = f.curve ? names.wheel("first", f.first) : names.point("first", f.first);
     j.second = names.point("second", f.second);
   }
+  j.slot = slot_of(f, names);
   if (f.type == JointType::geneva) {
     const InternalWheel internal = f.internal.value_or(InternalWheel::none);
     if (internal == InternalWheel::first)
@@ -457,6 +482,14 @@ LinkageForm form_of(const Linkage& l) {
       f.slots = j.geneva->slots.count, f.slot_angle = j.geneva->slot;
       if (j.geneva->slots.internal) f.internal = InternalWheel::second;
       f.ratio.reset(), f.pressure_angle.reset();
+    }
+    if (const auto& s = j.slot) {
+      f.curve = CurvedSlotForm{.points = {}, .closed = s->closed};
+      for (const std::complex<double>& p : s->points) f.curve->points.push_back(place(p));
+      if (s->radius > 0) {
+        f.curve->centre = place(s->centre), f.curve->radius = s->radius;
+        f.curve->from = s->from, f.curve->to = s->to;
+      }
     }
     if (j.curve) f.ratio_curve = RatioCurveForm{j.curve->first, j.curve->second}, f.ratio.reset();
     if (j.type == JointType::rack) f.radius = j.radius, f.pressure_angle = j.pressure_angle;

@@ -58,6 +58,12 @@ constexpr std::array<EnumName<ThreadHand>, 2> names(ThreadHand) {
 struct RatioCurveForm {
   std::vector<double> first, second;
 };
+struct CurvedSlotForm {
+  std::vector<Place> points;
+  bool closed = false;
+  std::optional<Place> centre;
+  std::optional<double> radius, from, to;
+};
 struct JointForm {
   std::string name;
   JointType type = JointType::revolute;
@@ -75,6 +81,7 @@ struct JointForm {
   std::optional<double> radius;
   std::optional<double> efficiency;
   std::optional<RatioCurveForm> ratio_curve;
+  std::optional<CurvedSlotForm> curve;
   std::optional<double> lead, pitch_diameter, flank_angle, spindle_inertia;
   std::optional<ThreadHand> hand;
   std::optional<int> slots;
@@ -304,6 +311,15 @@ void wheel_fields(Visitor& visit, JointForm& j) {
         j.ratio_curve);
 }
 template <class Visitor>
+void fields(Visitor&& visit, CurvedSlotForm& c) {
+  visit(field::length("points", "points that it passes through, in the frame of the first body"), c.points);
+  visit(field::entry("closed", "it returns to its first point"), c.closed);
+  visit(field::length("centre", "instead of points: centre of an arc"), c.centre);
+  visit(field::length("radius", "radius of the arc").positive(), c.radius);
+  visit(field::angle("from", "direction from the centre in which the arc begins"), c.from);
+  visit(field::angle("to", "direction in which it ends; without both it is a circle"), c.to);
+}
+template <class Visitor>
 void screw_fields(Visitor& visit, JointForm& j) {
   visit(field::length("lead", "screw: displacement for one turn of the spindle").positive(), j.lead);
   visit(field::length("pitch_diameter", "screw: pitch diameter of the thread, for its friction").positive(),
@@ -366,6 +382,7 @@ void fields(Visitor&& visit, JointForm& j) {
             "direction of a slide in the frame of the second body; if absent 0, or `direction` of a drawn "
             "linkage"),
         j.direction_second);
+  visit(field::entry("curve", "pin_in_slot: middle line of a curved slot, instead of `direction`"), j.curve);
   wheel_fields(visit, j);
   screw_fields(visit, j);
   visit(field::entry("slots", "Geneva drive: slots of the wheel").between(3, 1000), j.slots);

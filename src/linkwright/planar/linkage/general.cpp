@@ -200,6 +200,12 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     return Status::not_converged;
   }
   motion.closure_residual = std::max(motion.closure_residual, residual);
+  for (const PlanPair& pair : g.pairs)
+    if (const auto* slot = std::get_if<SlotPair>(&pair.kind))
+      if (const double beyond = place_in_slot(*slot, motion.parts).beyond; beyond > 1e3 * rounding) {
+        motion.gap = beyond;
+        return Status::no_assembly;
+      }
   return conditioning(m) < tolerance::toggle_angle * 1e-3 ? Status::singular : Status::done;
 }
 
@@ -354,7 +360,7 @@ JointReaction curve_force(const CurvePair& pair, const LinkageMotion& motion, do
   mesh.second_radius = distance / (1 - ratio);
   return mesh_force(mesh, motion, torque);
 }
-// The load of a pair on its second part: teeth, or a strand.
+// The load of a pair on its second part: teeth, a strand, or the flank of a slot.
 JointReaction pair_force(const PlanPair& pair, const LinkageMotion& motion, double multiplier) {
   if (const auto* curve = std::get_if<CurvePair>(&pair.kind)) {
     const PairRow row = row_now(pair, motion);
@@ -369,6 +375,11 @@ JointReaction pair_force(const PlanPair& pair, const LinkageMotion& motion, doub
             multiplier * (cam->slide ? 1 : cam->scale),
             nan,
             nan};
+  if (const auto* slot = std::get_if<SlotPair>(&pair.kind)) {
+    const PairRow row = row_now(pair, motion);
+    return {point_on(motion.parts[at(slot->pin.part)], slot->pin.at), multiplier * row.shares[0].force, 0,
+            nan, nan};
+  }
   const RackPair& rack = std::get<RackPair>(pair.kind);
   const math::Vec2 along = rotate(motion.parts[at(rack.rack.part)].direction, rack.rack.direction),
                    left = perpendicular(along);

@@ -127,6 +127,7 @@ class Checker {
     if (j.type == JointType::geneva)
       error(key, "a Geneva drive of a model is a gear with its slots", "set its type to gear");
     if (j.screw) screw(key, *j.screw);
+    if (j.slot) slot(key, j);
     if (gear && j.geneva && !(j.geneva->slots.count >= 3 && j.geneva->slots.count <= 1000))
       error(key, fmt::format("its wheel has {} slots", j.geneva->slots.count), "give 3 or more, 4 as usual");
     if (gear && !(j.efficiency > 0 && j.efficiency <= 1))
@@ -294,6 +295,41 @@ class Checker {
     for (const Strut& s : l_.struts) strut(s);
     stops();
   }
+  void slot(const std::string& key, const LinkageJoint& j) {
+    const CurvedSlot& s = *j.slot;
+    if (j.type != JointType::pin_in_slot)
+      error(key, "has the curve of a slot, and is not a pin in a slot", {});
+    if (has_friction(j) || j.friction_static > 0)
+      error(key, "friction in a curved slot is not computed", "leave its friction out");
+    if (s.radius > 0) {
+      if (!(std::isfinite(s.radius + s.from + s.to) && finite(s.centre)) || s.from == s.to ||
+          std::abs(s.to - s.from) > full_turn * (1 + 1e-12))
+        error(key, "the arc of its slot has no length, or is longer than a turn",
+              "give two directions that differ by at most 360 deg");
+      return;
+    }
+    const std::size_t n = s.points.size();
+    if (n < 3)
+      return error(key, fmt::format("the curve of its slot has {} points", n), "give at least 3, or an arc");
+    const std::size_t corners = s.closed ? n : n - 2;
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool last = i + 1 == n;
+      if (!finite(s.points[i]) || ((!last || s.closed) && s.points[i] == s.points[(i + 1) % n]))
+        return error(key,
+                     fmt::format("point {} of its slot is not finite, or is the same as the next one", i + 1),
+                     "leave it out");
+    }
+    constexpr double sharpest = 75 * pi / 180;
+    for (std::size_t c = 0; c < corners; ++c) {
+      const std::complex<double> a = s.points[c], b = s.points[(c + 1) % n], d = s.points[(c + 2) % n];
+      const double turn = std::abs(std::arg((d - b) / (b - a)));
+      if (turn > sharpest)
+        return error(key,
+                     fmt::format("its slot turns by {:.3g} deg at point {}: a corner", turn * 180 / pi,
+                                 (c + 1) % n + 1),
+                     "give more points where it turns, so that a smooth curve follows them");
+    }
+  }
   void stops() {
     for (std::size_t k = 0; k < l_.stops.size(); ++k) {
       const JointStop& s = l_.stops[k];
@@ -303,6 +339,7 @@ class Checker {
       }
       const LinkageJoint& j = l_.joints[static_cast<std::size_t>(s.joint)];
       const std::string key = "joint." + j.name;
+      if (j.slot) error(key, "a curved slot has no stops but its ends", "shorten its curve");
       if (j.type != JointType::revolute && j.type != JointType::prismatic && j.type != JointType::pin_in_slot)
         error(key, fmt::format("it is a {} joint and has a stop", name_of(j.type)),
               "pins, slides and slots have stops");
@@ -432,6 +469,7 @@ std::string first_rolling_pair(const Linkage& linkage) {
   for (const LinkageJoint& j : linkage.joints) {
     if (j.type == JointType::rack) return fmt::format("rack '{}'", j.name);
     if (j.type == JointType::gear && j.curve) return fmt::format("gear '{}' with a ratio curve", j.name);
+    if (j.slot) return fmt::format("curved slot '{}'", j.name);
     if (j.type == JointType::gear && j.geneva) return fmt::format("Geneva drive '{}'", j.name);
   }
   if (!linkage.cams.empty()) return fmt::format("cam '{}'", linkage.cams[0].name);

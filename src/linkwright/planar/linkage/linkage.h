@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <memory>
 #include <optional>
@@ -109,6 +110,22 @@ struct Geneva {
   std::optional<double> slot = {};
 };
 
+/// The middle line of a curved slot, in the frame of its body: a smooth curve through points, or an arc.
+struct CurvedSlot {
+  /// Points that the curve passes through (m), at least 3; empty: it is an arc.
+  std::vector<std::complex<double>> points;
+  bool closed = false;          ///< the curve through the points returns to the first one
+  std::complex<double> centre;  ///< of the arc, m
+  double radius = 0;            ///< of the arc, m, > 0; 0: the curve has points
+  // Directions from the centre of the arc (rad), at most a turn apart, which makes it a circle. It runs
+  // clockwise where the end is below the beginning.
+  double from = 0,     ///< direction of the beginning
+      to = full_turn;  ///< direction of the end
+
+  /// @returns true for a circle and for a closed curve, which have no ends
+  bool is_closed() const { return radius > 0 ? std::abs(to - from) >= full_turn * (1 - 1e-12) : closed; }
+};
+
 /// The screw that drives a slide. Its spindle turns by 2 pi for each lead of the displacement.
 struct Screw {
   double lead = 0;             ///< displacement by turn, m, > 0
@@ -165,6 +182,9 @@ struct LinkageJoint {
   /// prismatic: the screw that drives it. The drive prescribes the displacement; the motion of the spindle
   /// and its torque follow.
   std::optional<Screw> screw = {};
+  /// pin_in_slot: the curve of the slot in the frame of the first body, on which the second point lies,
+  /// instead of a line. Its coordinate is the length of the curve from its beginning.
+  std::optional<CurvedSlot> slot = {};
   /// Coefficient of Coulomb friction, >= 0: of a pin, coefficient times pin radius times force; of a slide or
   /// slot, coefficient times normal force, which a guide of length > 0 takes as two forces at its ends.
   double friction = 0;

@@ -151,12 +151,21 @@ struct CamPair {
   ProgrammeCurve programme;  ///< m or rad
 };
 
+class SlotTrack;
+
+/// A pin that runs in a curved slot.
+struct SlotPair {
+  PartPoint slot,                          ///< origin and x axis of the body of the slot
+      pin;                                 ///< the pin
+  std::shared_ptr<const SlotTrack> track;  ///< in the frame of the body of the slot
+};
+
 /// A pair that gives one equation between parts, other than a gear of constant ratio.
 struct PlanPair {
   int joint = -1;   ///< index in the linkage, -1 of a strand or cam
   int strand = -1;  ///< index into LinkagePlan::strands, -1 of others
-  std::variant<RackPair, StrandPair, CurvePair, CamPair> kind;  ///< the pair with its dimensions
-  int cam = -1;                                                 ///< index into Linkage::cams, -1 of others
+  std::variant<RackPair, StrandPair, CurvePair, CamPair, SlotPair> kind;  ///< the pair with its dimensions
+  int cam = -1;  ///< index into Linkage::cams, -1 of others
 };
 
 /// Parts on pins, each of a part that is placed before it, whose angles follow from gears and drives.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -96,6 +97,7 @@ bool moves_alone(const PlanDraft& d, const PartPair& pair, int part, const PartJ
     return !joint.slide && curve->second == part && curve->first != part && curve->carrier != part;
   if (const auto* cam = std::get_if<CamPair>(&pair.pair.kind))
     return joint.joint == cam->joint && joint.slide == cam->slide;
+  if (std::holds_alternative<SlotPair>(pair.pair.kind)) return false;
   const auto& strand = std::get<StrandPair>(pair.pair.kind);
   return (at_centre(strand.first) && strand.first_radius != 0) ||
          (at_centre(strand.second) && strand.second_radius != 0);
@@ -133,6 +135,20 @@ void add_rack(PlanDraft& d, int joint) {
   rack.phase +=
       angle_of(d.plan().bodies[at(j.second.body)].turn) - angle_of(d.plan().bodies[at(j.first.body)].turn);
   add_pair(d, joint, -1, rack, {rack.pinion.part, rack.rack.part}, "joint." + j.name, j.name);
+}
+
+void add_slot(PlanDraft& d, int joint) {
+  const LinkageJoint& j = d.model(joint);
+  const BodyOnPart& body = d.plan().bodies[at(j.first.body)];
+  const SlotPair slot{.slot = {body.part, body.origin, body.turn},
+                      .pin = on_part(d, j.second, 0),
+                      .track = std::make_shared<const SlotTrack>(*j.slot)};
+  if (slot.slot.part == slot.pin.part)
+    return d.error("joint." + j.name,
+                   fmt::format("joins '{}' and '{}', which are welded together: a redundant constraint",
+                               d.body_name(j.first.body), d.body_name(j.second.body)),
+                   "leave the joint or the weld out");
+  add_pair(d, joint, -1, slot, {slot.slot.part, slot.pin.part}, "joint." + j.name, j.name);
 }
 
 namespace {
@@ -300,6 +316,7 @@ void check_left_pairs(PlanDraft& d) {
     const char* what = pair.pair.cam >= 0                                 ? "the cam"
                        : pair.pair.joint < 0                              ? "the rope"
                        : d.model(pair.pair.joint).type == JointType::rack ? "the rack"
+                       : d.model(pair.pair.joint).slot                    ? "the slot"
                        : d.model(pair.pair.joint).geneva                  ? "the Geneva drive"
                                                                           : "the gear";
     if (pair.pair.strand >= 0 && d.linkage.belts[at(d.plan().strands[at(pair.pair.strand)].belt)].closed)

@@ -114,6 +114,10 @@ void join_parts(PlanDraft& d) {
       add_rack(d, k);
       continue;
     }
+    if (j.slot) {
+      add_slot(d, k);
+      continue;
+    }
     // The direction of a pin is the x axis of its body, from which a drive counts.
     const bool turns = j.type == JointType::revolute;
     const PartPoint first = on_part(d, j.first, turns ? 0 : j.slide_first),

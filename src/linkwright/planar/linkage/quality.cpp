@@ -10,6 +10,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/minimum.h"
+#include "linkwright/planar/linkage/detail/slot_track.h"
 #include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
@@ -115,6 +116,15 @@ std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std:
   return out;
 }
 
+namespace {
+const SlotPair& slot_of(const LinkagePlan& plan, int joint) {
+  for (const Group& g : plan.groups)
+    for (const PlanPair& pair : g.pairs)
+      if (pair.joint == joint) return std::get<SlotPair>(pair.kind);
+  LINKWRIGHT_REQUIRE(false, "joint {} has no curved slot", joint);
+}
+}  // namespace
+
 PartState<double> relative_motion(const PartState<double>& r, const PartState<double>& b) {
   const math::Vec2 slip = b.velocity - velocity_at(r, b.origin);
   const math::Vec2 change =
@@ -142,7 +152,13 @@ JointMotion joint_motion(const Linkage& linkage, const LinkagePlan& plan, const 
   const auto point = [&](const BodyPoint& p) {
     return math::vec(linkage.bodies[at(p.body)].points[at(p.point)].at);
   };
-  const math::Vec2 there = point_on(s, point(j.second)), along = math::unit(j.slide_first);
+  const math::Vec2 there = point_on(s, point(j.second));
+  if (j.slot) {
+    const SlotPlace place = slot_of(plan, joint).track->nearest(there);
+    return {place.way, dot(place.tangent, velocity_at(s, there)),
+            dot(place.tangent, acceleration_at(s, there))};
+  }
+  const math::Vec2 along = math::unit(j.slide_first);
   return {dot(along, there - point(j.first)), dot(along, velocity_at(s, there)),
           dot(along, acceleration_at(s, there))};
 }

@@ -44,7 +44,7 @@ std::optional<std::vector<ConstraintRow>> rows_of_joints(const Linkage& l, doubl
   std::vector<ConstraintRow> out;
   for (int k = 0; k < static_cast<int>(l.joints.size()); ++k) {
     const LinkageJoint& j = l.joints[at(k)];
-    if (has_teeth(j.type)) return std::nullopt;
+    if (has_teeth(j.type) || j.slot) return std::nullopt;
     const PartState<double>& second = bodies[at(j.second.body)];
     const Vec2 place = point_on(second, math::vec(l.bodies[at(j.second.body)].points[at(j.second.point)].at));
     const Vec2 slide = rotate(bodies[at(j.first.body)].direction, math::unit(j.slide_first));

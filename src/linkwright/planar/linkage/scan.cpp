@@ -195,8 +195,9 @@ bool periodic(const LinkagePlan& plan, int input) {
         const auto& turned = plan.turned[at(part)];
         if (part == 0 || !turned || !turned->shares.empty()) continue;
         const double gain = turned->gains[at(input)];
-        // A cam that comes round comes back.
-        const bool comes_back = cam && !cam->is_sector && std::abs(gain - std::round(gain)) < 1e-12;
+        // A cam that comes round comes back, and so does a slot.
+        const bool comes_back = ((cam && !cam->is_sector) || std::holds_alternative<SlotPair>(pair.kind)) &&
+                                std::abs(gain - std::round(gain)) < 1e-12;
         if (gain != 0 && !comes_back) return false;
       }
     }

@@ -156,7 +156,7 @@ class Artist {
                                  ground ? Joint::ground_pivot : Joint::pivot});
       } else if (j.type == JointType::pin_in_slot) {
         scene_.joints.push_back({j.name, point(j.second), Joint::pivot});
-        guide(j);
+        j.slot ? curved_guide(j) : guide(j);
       } else if (j.type == JointType::prismatic && (!moves(j.first.body) || !moves(j.second.body))) {
         guide(j);
       } else if (j.type == JointType::rack) {
@@ -165,6 +165,15 @@ class Artist {
         guide(j);
       }
     }
+  }
+  // The middle line of a curved slot, on its body.
+  void curved_guide(const LinkageJoint& j) {
+    constexpr int corners = 37;
+    std::vector<int> line;
+    for (const math::Vec2& p : SlotTrack(*j.slot).points(corners))
+      line.push_back(add_point("", j.first.body, number(p)));
+    if (j.slot->is_closed()) line.push_back(line.front());
+    scene_.bodies.push_back({j.name + " slot", std::move(line), Style::guide});
   }
   // The pitch circle of a wheel, or the way of a belt over it.
   void circle(std::string name, int body, std::complex<double> centre, double radius) {

@@ -10,6 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/detail/slot_track.h"
 #include "linkwright/planar/linkage/geneva.h"
 #include "linkwright/planar/linkage/kernel.h"
 #include "linkwright/planar/linkage/motion.h"
@@ -203,6 +204,34 @@ PairRow pair_row(const CamPair& c, const std::vector<PartState<double>>& parts, 
   out.shares[3] = PairShare{c.moved_second.part, along, cross(arm, along), 0, 0};
   return out;
 }
+// The place of the pin of a curved slot, in the frame of the slot's body.
+inline SlotPlace place_in_slot(const SlotPair& s, const std::vector<PartState<double>>& parts) {
+  const PartState<double>&base = parts[static_cast<std::size_t>(s.slot.part)],
+        &pin = parts[static_cast<std::size_t>(s.pin.part)];
+  const math::Vec2 there = rotate_inverse(base.direction, point_on(pin, s.pin.at) - base.origin);
+  return s.track->nearest(rotate_inverse(s.slot.direction, there - s.slot.at));
+}
+// The distance of the pin from the curve. An end of an open curve goes on along its tangent; positions there
+// are refused after they are found.
+template <class Angle>
+PairRow pair_row(const SlotPair& s, const std::vector<PartState<double>>& parts, const Angle&) {
+  const PartState<double>&base = parts[static_cast<std::size_t>(s.slot.part)],
+        &pin = parts[static_cast<std::size_t>(s.pin.part)];
+  const SlotPlace place = place_in_slot(s, parts);
+  const math::Vec2 point = point_on(pin, s.pin.at);
+  const math::Vec2 along = rotate(base.direction, rotate(s.slot.direction, place.tangent)),
+                   left = perpendicular(along);
+  const math::Vec2 on_curve = point_on(base, s.slot.at + rotate(s.slot.direction, place.at));
+  const math::Vec2 arm = point - pin.origin, base_arm = point - base.origin;
+  const double slip = dot(along, velocity_at(pin, point) - velocity_at(base, point));
+  PairRow out;
+  out.residual = dot(left, point - on_curve);
+  out.remainder = base.speed * base.speed * dot(left, base_arm) - pin.speed * pin.speed * dot(left, arm) -
+                  place.curvature * slip * slip - 2 * base.speed * slip;
+  out.shares = {PairShare{s.pin.part, left, cross(arm, left), 0, 0},
+                PairShare{s.slot.part, -left, -cross(base_arm, left), 0, 0}};
+  return out;
+}
 template <class Angle>
 PairRow pair_row(const PlanPair& pair, const std::vector<PartState<double>>& parts, const Angle& angle) {
   return std::visit([&](const auto& kind) { return pair_row(kind, parts, angle); }, pair.kind);
@@ -215,6 +244,7 @@ inline std::array<int, 4> parts_of(const PlanPair& pair) {
     return {curve->first, curve->second, curve->carrier, 0};
   if (const auto* cam = std::get_if<CamPair>(&pair.kind))
     return {cam->base.part, cam->cam.part, cam->moved_first.part, cam->moved_second.part};
+  if (const auto* slot = std::get_if<SlotPair>(&pair.kind)) return {slot->pin.part, slot->slot.part, 0, 0};
   const auto& strand = std::get<StrandPair>(pair.kind);
   return {strand.first.part, strand.second.part, 0, 0};
 }

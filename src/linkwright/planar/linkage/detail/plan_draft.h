@@ -78,10 +78,11 @@ bool find_train(PlanDraft& d);
 PlanGear gear_of_group(PlanDraft& d, const PartGear& gear, bool in_loop);
 void check_left_gears(PlanDraft& d);
 
-// plan_pairs.cpp: racks and strands between parts; a part on one joint that such a pair moves; and pairs that
-// are left over.
+// plan_pairs.cpp: racks, strands and curved slots between parts; a part on one joint that such a pair moves;
+// and pairs that are left over.
 void add_rack(PlanDraft& d, int joint);
 void add_curve(PlanDraft& d, int joint);
+void add_slot(PlanDraft& d, int joint);
 void add_geneva(PlanDraft& d, int joint);
 void add_belts(PlanDraft& d);
 bool find_follower(PlanDraft& d);
