@@ -50,11 +50,25 @@ void print_reading(const planar::Sketch& sketch, bool has_unit) {
   const std::size_t bars = bodies(SketchBodyType::bar), plates = bodies(SketchBodyType::plate),
                     blocks = bodies(SketchBodyType::block), pins = count(sketch, planar::JointType::revolute),
                     slides = count(sketch, planar::JointType::prismatic),
-                    welds = count(sketch, planar::JointType::fixed);
-  fmt::print("{} bar{}, {} plate{}, {} block{}, {}; {} pin{}, {} slide{}, {} weld{}\n", bars, plural(bars),
-             plates, plural(plates), blocks, plural(blocks),
+                    welds = count(sketch, planar::JointType::fixed), wheels = bodies(SketchBodyType::wheel),
+                    gears = sketch.gears.size();
+  const std::string wheel_words = gears == 0 ? "" : fmt::format(", {} wheel{}", wheels, plural(wheels));
+  const std::string gear_words = gears == 0 ? "" : fmt::format(", {} pair{} of gears", gears, plural(gears));
+  fmt::print("{} bar{}, {} plate{}, {} block{}{}, {}; {} pin{}, {} slide{}, {} weld{}{}\n", bars,
+             plural(bars), plates, plural(plates), blocks, plural(blocks), wheel_words,
              bodies(SketchBodyType::ground) > 0 ? "the ground" : "no ground", pins, plural(pins), slides,
-             plural(slides), welds, plural(welds));
+             plural(slides), welds, plural(welds), gear_words);
+}
+
+/// The linkage of a drawing or of a file of the program Linkage; `has_unit` receives whether it says in which
+/// unit its numbers are. None, with one error in `diagnostics`, where it cannot be read.
+std::optional<planar::Sketch> read_sketch(const std::string& text, const std::string& file, double tolerance,
+                                          bool& has_unit, Diagnostics& diagnostics) {
+  if (planar::is_linkage_file(text)) return planar::read_linkage_file(text, file, diagnostics);
+  const auto drawing = planar::read_shapes(text, file, diagnostics);
+  if (!drawing) return std::nullopt;
+  has_unit = drawing->has_unit;
+  return planar::sketched_linkage(drawing->shapes, tolerance);
 }
 
 }  // namespace
@@ -76,18 +90,20 @@ int sketch(const Arguments& arguments, std::span<const study::Kind> kinds) {
                    "write a number with its unit, such as 0.01mm or 0.0005in");
   const std::string text = study::load_file(arguments.drawing, diagnostics);
   if (has_errors(diagnostics)) return refused(bad_input);
-  const auto drawing = planar::read_shapes(text, arguments.drawing, diagnostics);
-  if (!drawing) return refused(bad_input);
-  planar::Sketch read = planar::sketched_linkage(drawing->shapes, *tolerance);
+  bool has_unit = true;
+  std::optional<planar::Sketch> found =
+      read_sketch(text, arguments.drawing, *tolerance, has_unit, diagnostics);
+  if (!found) return refused(bad_input);
+  planar::Sketch& read = *found;
   if (read.bodies.empty())
     return problem(
         read.left_out.empty() ? "no line of the drawing is a link" : read.left_out.front(),
         "draw links as lines or closed polylines on a layer that is not called ground, slide, drive, "
         "trace or construction");
-  if (arguments.file != "-") print_reading(read, drawing->has_unit);
-  const std::size_t driven = complete(read);
+  if (arguments.file != "-") print_reading(read, has_unit);
+  complete(read);
   const fs::path source(arguments.drawing);
-  const std::string study = sketch_study(read, driven, "the linkage drawn in " + source.filename().string());
+  const std::string study = sketch_study(read, "the linkage drawn in " + source.filename().string());
   if (arguments.file == "-") {
     fmt::print("{}", study);
     return 0;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/planar/drawing/drawing.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <complex>
 #include <string>
 
 #include "linkwright/core/numbers.h"
@@ -125,6 +127,61 @@ TEST(Drawings, RefuseNumbersThatCannotBeHeld) {
   EXPECT_EQ(said_at_once("M0 0L1e-999 1"), "read");
   EXPECT_THAT(said_at_once("M-1e308 0L1e308 1"), HasSubstr("more than 1e9 m from the origin"));
   EXPECT_THAT(said_at_once("<path d='M0 0L1 1' transform='rotate(nan)'/>"), HasSubstr("is not a number"));
+}
+
+/// A DXF with a block "bar", a line of 30 mm along x with a circle of 2 mm at its base point, and entities.
+std::string with_block(const std::string& entities, const std::string& more_blocks = "") {
+  return "  0\nSECTION\n  2\nBLOCKS\n  0\nBLOCK\n  2\nbar\n 10\n10\n 20\n0\n"
+         "  0\nLINE\n  8\n0\n 10\n10\n 20\n0\n 11\n40\n 21\n0\n"
+         "  0\nCIRCLE\n  8\nground\n 10\n10\n 20\n0\n 40\n2\n  0\nENDBLK\n" +
+         more_blocks + "  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n" + entities + "  0\nENDSEC\n  0\nEOF\n";
+}
+
+TEST(Drawings, BlocksAreReadWhereTheyAreInserted) {
+  Diagnostics diagnostics;
+  // Twice as large, turned by 90 degrees, with its base point at (100, 50).
+  const auto turned = read_shapes(
+      with_block("  0\nINSERT\n  8\nlinks\n  2\nbar\n 10\n100\n 20\n50\n 41\n2\n 42\n2\n 50\n90\n"), "d.dxf",
+      diagnostics);
+  ASSERT_TRUE(turned);
+  ASSERT_EQ(turned->shapes.size(), 2U);
+  EXPECT_EQ(turned->shapes[0].layer, "links");  // what lies on the layer 0 takes that of its INSERT
+  EXPECT_NEAR(std::abs(turned->shapes[0].points[1] - std::complex<double>(0.1, 0.11)), 0, 1e-15);
+  EXPECT_EQ(turned->shapes[1].layer, "ground");
+  EXPECT_NEAR(turned->shapes[1].radius, 0.004, 1e-15);
+  EXPECT_NEAR(std::abs(turned->shapes[1].centre - std::complex<double>(0.1, 0.05)), 0, 1e-15);
+  // Three columns 50 mm apart, within another block; stretched circles are no circles.
+  const std::string row =
+      "  0\nBLOCK\n  2\nrow\n  0\nINSERT\n  2\nbar\n 10\n0\n 20\n0\n 42\n-2\n 70\n3\n 44\n50\n"
+      "  0\nENDBLK\n";
+  const auto copies =
+      read_shapes(with_block("  0\nINSERT\n  2\nrow\n 10\n5\n 20\n0\n", row), "d.dxf", diagnostics);
+  ASSERT_TRUE(copies);
+  ASSERT_EQ(copies->shapes.size(), 6U);
+  EXPECT_NEAR(std::abs(copies->shapes[4].points[0] - 0.105), 0, 1e-15);
+  EXPECT_EQ(copies->shapes[5].radius, 0);
+  EXPECT_TRUE(copies->shapes[5].closed);
+  EXPECT_TRUE(diagnostics.empty());
+}
+
+TEST(Drawings, BlocksThatGrowBeyondBoundsAreRefused) {
+  const auto problem = [](const std::string& entities, const std::string& blocks) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_shapes(with_block(entities, blocks), "d.dxf", diagnostics));
+    return diagnostics.empty() ? std::string() : to_string(diagnostics.front());
+  };
+  const std::string itself = "  0\nBLOCK\n  2\nloop\n  0\nINSERT\n  2\nloop\n 10\n0\n 20\n0\n  0\nENDBLK\n";
+  EXPECT_THAT(problem("  0\nINSERT\n  2\nloop\n 10\n0\n 20\n0\n", itself),
+              testing::HasSubstr("more than 8 blocks lie within each other"));
+  std::string powers;  // each has a thousand of the one before
+  for (int i = 1; i < 5; ++i)
+    powers += fmt::format(
+        "  0\nBLOCK\n  2\nb{}\n  0\nINSERT\n  2\n{}\n 10\n0\n 20\n0\n 70\n1000\n 44\n1\n  0\nENDBLK\n", i,
+        i == 1 ? "bar" : fmt::format("b{}", i - 1));
+  EXPECT_THAT(problem("  0\nINSERT\n  2\nb4\n 10\n0\n 20\n0\n", powers),
+              testing::HasSubstr("the blocks of the drawing draw more than 20000 lines"));
+  EXPECT_THAT(problem("  0\nINSERT\n  2\nbar\n 10\n0\n 20\n0\n 41\n1e308\n 42\n1e308\n", ""),
+              testing::HasSubstr("lies too far away to be drawn"));
 }
 
 }  // namespace

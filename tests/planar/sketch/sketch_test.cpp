@@ -33,6 +33,13 @@ std::size_t bodies(const Sketch& sketch, SketchBodyType type) {
                                                 [&](const SketchBody& body) { return body.type == type; }));
 }
 
+const SketchJoint& driven_joint(const Sketch& sketch) { return sketch.joints.at(sketch.drives.at(0).joint); }
+
+std::string completed_study(Sketch sketch) {
+  complete(sketch);
+  return sketch_study(sketch, "test");
+}
+
 const std::vector<DrawnShape> four_bar = {line({{0, 0}, {40, 90}}), line({{40, 90}, {180, 140}}),
                                           line({{180, 140}, {220, 0}}), line({{0, 0}, {220, 0}}, "ground")};
 
@@ -44,23 +51,21 @@ TEST(Sketches, FourBar) {
   EXPECT_EQ(count(sketch, JointType::prismatic), 0U);
   EXPECT_EQ(mobility(sketch), 1);
   EXPECT_TRUE(sketch.questions.empty());
-  const std::size_t driven = complete(sketch);
+  complete(sketch);
   ASSERT_EQ(sketch.questions.size(), 1U);
   EXPECT_THAT(sketch.questions[0].text, HasSubstr("which pin is driven?"));
-  EXPECT_EQ(sketch.joints.at(driven).name, "A");  // of the crank of 98.5 mm, the rocker has 145.6 mm
+  EXPECT_EQ(driven_joint(sketch).name, "A");  // of the crank of 98.5 mm, the rocker has 145.6 mm
 }
 
 TEST(Sketches, OrderOfTheDrawingDoesNotMatter) {
-  Sketch first = sketched_linkage(four_bar, tolerance);
-  const std::string text = sketch_study(first, complete(first), "four-bar");
+  const std::string text = completed_study(sketched_linkage(four_bar, tolerance));
   std::mt19937 random(1);
   for (int times = 0; times < 20; ++times) {
     std::vector<DrawnShape> shapes = four_bar;
     std::shuffle(shapes.begin(), shapes.end(), random);
     for (DrawnShape& shape : shapes)
       if (random() % 2 == 0) std::reverse(shape.points.begin(), shape.points.end());
-    Sketch sketch = sketched_linkage(shapes, tolerance);
-    EXPECT_EQ(sketch_study(sketch, complete(sketch), "four-bar"), text);
+    EXPECT_EQ(completed_study(sketched_linkage(shapes, tolerance)), text);
   }
 }
 
@@ -136,16 +141,16 @@ TEST(Sketches, LayersSayWhatLinesAre) {
   shapes.push_back(circle({220, 0}, "Drive"));
   shapes.push_back(circle({110, 115}, "trace"));
   shapes.push_back(line({{-50, -50}, {300, -50}}, "construction"));
-  shapes.push_back(circle({0, 0}, "gear 1"));
+  shapes.push_back(circle({0, 0}, "belt 1"));
   Sketch sketch = sketched_linkage(shapes, tolerance);
   EXPECT_EQ(sketch.bodies.size(), 4U);
   ASSERT_EQ(sketch.traced.size(), 1U);
   EXPECT_EQ(sketch.points[sketch.traced[0]].at, std::complex<double>(0.11, 0.115));
   ASSERT_EQ(sketch.left_out.size(), 1U);
-  EXPECT_THAT(sketch.left_out[0], HasSubstr("is a wheel"));
-  const std::size_t driven = complete(sketch);
+  EXPECT_THAT(sketch.left_out[0], HasSubstr("belts are not read from drawings"));
+  complete(sketch);
   EXPECT_TRUE(sketch.questions.empty());
-  EXPECT_EQ(sketch.points[sketch.joints.at(driven).point].at, std::complex<double>(0.22, 0));
+  EXPECT_EQ(sketch.points[driven_joint(sketch).point].at, std::complex<double>(0.22, 0));
 }
 
 TEST(Sketches, PolylinesAreBarsBetweenTheirCorners) {
@@ -164,10 +169,79 @@ TEST(Sketches, StudiesOfSketchesRun) {
        {four_bar,
         {line({{0, 0}, {30, 40}}), line({{30, 40}, {200, 0}}), circle({0, 0}, "ground"),
          line({{150, 0}, {260, 0}}, "slide")}}) {
-    Sketch sketch = sketched_linkage(shapes, tolerance);
-    const std::size_t driven = complete(sketch);
-    EXPECT_EQ(test::run_text(sketch_study(sketch, driven, "test")).status, Status::done);
+    EXPECT_EQ(test::run_text(completed_study(sketched_linkage(shapes, tolerance))).status, Status::done);
   }
+}
+
+/// A circle on a layer of wheels, in mm.
+DrawnShape wheel(std::complex<double> centre, double radius, std::string layer = "gear") {
+  DrawnShape out = circle(centre, std::move(layer));
+  out.radius = 1e-3 * radius;
+  return out;
+}
+
+TEST(Sketches, WheelsThatTouchAreGears) {
+  // A sun of 20 mm, a planet of 30 mm and a fixed ring of 80 mm: the arm turns with a fifth of the sun's
+  // speed.
+  const Sketch train = sketched_linkage(
+      {circle({0, 0}, "ground"), line({{0, 0}, {50, 0}}), wheel({0, 0}, 20), wheel({50, 0}, 30),
+       wheel({0, 0}, 80, "gear ground"), circle({0, 0}, "drive"), circle({50, 0}, "trace")},
+      tolerance);
+  EXPECT_EQ(train.bodies.size(), 4U);
+  EXPECT_EQ(bodies(train, SketchBodyType::wheel), 2U);
+  EXPECT_EQ(count(train, JointType::revolute), 3U);
+  ASSERT_EQ(train.gears.size(), 2U);
+  EXPECT_EQ(mobility(train), 1);
+  const study::Result result = test::run_text(completed_study(train));
+  ASSERT_EQ(result.status, Status::done);
+  const double sun = test::column(result, "sweep", "wheel_A_speed_rad_per_s").at(7),
+               arm = test::column(result, "sweep", "AB_speed_rad_per_s").at(7),
+               planet = test::column(result, "sweep", "wheel_B_speed_rad_per_s").at(7);
+  EXPECT_NEAR(arm / sun, 0.2, 1e-12);
+  EXPECT_NEAR(planet / sun, -1.0 / 3, 1e-12);
+}
+
+TEST(Sketches, AWheelTurnsWithTheBarAtItsCentreThatDoesNotCarryIt) {
+  // A sector of 120 mm on a rocker drives a pinion of 30 mm.
+  const std::vector<DrawnShape> shapes = {circle({0, 0}, "ground"),    circle({150, 0}, "ground"),
+                                          line({{0, 0}, {-60, 100}}),  line({{-60, 100}, {-160, 0}}),
+                                          circle({-160, 0}, "ground"), wheel({0, 0}, 120),
+                                          wheel({150, 0}, 30)};
+  Sketch sketch = sketched_linkage(shapes, tolerance);
+  ASSERT_EQ(sketch.gears.size(), 1U);
+  EXPECT_EQ(sketch.bodies[sketch.gears[0].bodies[0]].type, SketchBodyType::bar);
+  EXPECT_EQ(sketch.bodies[sketch.gears[0].bodies[1]].type, SketchBodyType::wheel);
+  EXPECT_DOUBLE_EQ(sketch.gears[0].ratio, -4);
+  // What is not quite right is said.
+  std::vector<DrawnShape> apart = shapes;
+  apart.back().radius -= 3e-5;
+  sketch = sketched_linkage(apart, tolerance);
+  EXPECT_EQ(sketch.gears.size(), 1U);
+  ASSERT_EQ(sketch.questions.size(), 1U);
+  EXPECT_EQ(sketch.questions[0].text,
+            "the wheels around (0, 0) mm and (150, 0) mm miss each other by 0.03 mm: do they mesh?");
+  apart.back().radius -= 1e-3;
+  sketch = sketched_linkage(apart, tolerance);
+  EXPECT_TRUE(sketch.gears.empty());
+  ASSERT_EQ(sketch.left_out.size(), 2U);
+  EXPECT_EQ(sketch.left_out[0], "the wheel around (0, 0) mm touches no other wheel, and is left out");
+  sketch = sketched_linkage({line({{0, 0}, {0, 90}}), wheel({0, 0}, 120), wheel({150, 0}, 30)}, tolerance);
+  ASSERT_EQ(sketch.left_out.size(), 1U);
+  EXPECT_EQ(sketch.left_out[0],
+            "the wheels around (0, 0) mm and (150, 0) mm touch, but no link or ground has points at both "
+            "centres");
+}
+
+TEST(Sketches, SeveralDrivesMakeAGrid) {
+  // A five-bar with two cranks.
+  const std::vector<DrawnShape> shapes = {
+      line({{0, 0}, {0, 40}}),     line({{0, 40}, {50, 110}}),         line({{50, 110}, {100, 40}}),
+      line({{100, 40}, {100, 0}}), line({{0, 0}, {100, 0}}, "ground"), circle({0, 0}, "drive"),
+      circle({100, 0}, "drive")};
+  Sketch sketch = sketched_linkage(shapes, tolerance);
+  EXPECT_EQ(mobility(sketch), 2);
+  const study::Result result = test::run_text(completed_study(sketch));
+  EXPECT_EQ(test::table(result, "sweep").rows(), 361U);  // 19 positions of each crank
 }
 
 }  // namespace

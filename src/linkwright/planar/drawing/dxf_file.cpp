@@ -98,18 +98,22 @@ std::vector<Group> groups_of(std::string_view text) {
   return out;
 }
 
-/// The entities of the section ENTITIES, vertices with their polyline; a file of entities alone has no
-/// sections.
-std::vector<Entity> entities_of(const std::vector<Group>& groups) {
-  std::size_t start = 0;
-  bool has_sections = false;
-  for (std::size_t i = 0; i < groups.size() && !has_sections; ++i)
-    if (groups[i].code == 2 && groups[i].value == "ENTITIES" && i > 0 && groups[i - 1].value == "SECTION")
-      start = i + 1, has_sections = true;
+/// The first group of a section; none in a file without it.
+std::optional<std::size_t> start_of_section(const std::vector<Group>& groups, std::string_view name) {
+  for (std::size_t i = 1; i < groups.size(); ++i)
+    if (groups[i].code == 2 && groups[i].value == name && groups[i - 1].value == "SECTION") return i + 1;
+  return std::nullopt;
+}
+
+/// The entities of a section, vertices with their polyline. A file of entities alone has no sections: all of
+/// it is ENTITIES.
+std::vector<Entity> entities_of(const std::vector<Group>& groups, std::string_view section) {
+  const std::optional<std::size_t> start = start_of_section(groups, section);
+  if (!start && section != "ENTITIES") return {};
   std::vector<Entity> out;
   Entity* entity = nullptr;
   Entity ignored;
-  for (std::size_t i = start; i < groups.size(); ++i) {
+  for (std::size_t i = start.value_or(0); i < groups.size(); ++i) {
     const Group& group = groups[i];
     if (group.code == 0 && group.value == "ENDSEC") return out;
     if (group.code != 0) {
@@ -124,7 +128,8 @@ std::vector<Entity> entities_of(const std::vector<Group>& groups) {
       entity = &out.emplace_back(Entity{group.value, group.line, {}, {}});
     }
   }
-  if (has_sections) throw Fault{groups.back().line, "the DXF file ends within its section ENTITIES", damaged};
+  if (start)
+    throw Fault{groups.back().line, fmt::format("the DXF file ends within its section {}", section), damaged};
   return out;
 }
 
@@ -388,37 +393,155 @@ Fault no_entity(const std::map<std::string_view, int>& others) {
               : "draw the path as a polyline, line, arc, circle, ellipse or spline of the model"};
 }
 
+/// What is drawn once and inserted in several places.
+struct Block {
+  Point base;
+  std::vector<Entity> entities;
+};
+
+std::string_view text_or(const Entity& entity, int code, std::string_view otherwise) {
+  for (const Group& group : entity.groups)
+    if (group.code == code) return group.value;
+  return otherwise;
+}
+
+std::map<std::string_view, Block> blocks_of(const std::vector<Group>& groups) {
+  std::map<std::string_view, Block> out;
+  Block* block = nullptr;
+  for (Entity& entity : entities_of(groups, "BLOCKS")) {
+    if (entity.type == "BLOCK") {
+      block = &out[text_or(entity, 2, "")];
+      *block = {{number_or(entity, 10, 0), number_or(entity, 20, 0)}, {}};
+    } else if (entity.type == "ENDBLK") {
+      block = nullptr;
+    } else if (block) {
+      block->entities.push_back(std::move(entity));
+    }
+  }
+  return out;
+}
+
+/// The map p' = direct p + mirrored conj(p) + shift.
+struct InsertMap {
+  Point direct = 1, mirrored = 0, shift = 0;
+  Point operator()(Point p) const { return direct * p + mirrored * std::conj(p) + shift; }
+};
+
+/// The map of `inner`, followed by that of `outer`.
+InsertMap operator*(const InsertMap& outer, const InsertMap& inner) {
+  return {outer.direct * inner.direct + outer.mirrored * std::conj(inner.mirrored),
+          outer.direct * inner.mirrored + outer.mirrored * std::conj(inner.direct), outer(inner.shift)};
+}
+
+/// The map of a block by an INSERT, of the copy in a column and a row.
+InsertMap map_of(const Entity& insert, const Block& block, int column, int row) {
+  const double x = number_or(insert, 41, 1), y = number_or(insert, 42, 1);
+  const Point turn = std::polar(1.0, number_or(insert, 50, 0) * pi / 180);
+  const Point copy(column * number_or(insert, 44, 0), row * number_or(insert, 45, 0));
+  const InsertMap scaled{turn * ((x + y) / 2), turn * ((x - y) / 2), place_at(insert, 10) + turn * copy};
+  const InsertMap seen = is_below(insert) ? InsertMap{0, -1, 0} : InsertMap{};
+  return seen * scaled * InsertMap{1, 0, -block.base};
+}
+
+/// The lines of the entities of a drawing, with those of the blocks that it inserts.
+class DxfLines {
+ public:
+  DxfLines(std::map<std::string_view, Block> blocks, std::size_t per_turn)
+      : blocks_(std::move(blocks)), per_turn_(per_turn) {}
+
+  /// Entities of a block on the layer 0 lie on the layer of its INSERT.
+  void add(const std::vector<Entity>& entities, const InsertMap& map, const std::string& layer, int depth) {
+    for (const Entity& entity : entities) {
+      const std::string own = layer_of(entity), on = own == "0" && depth > 0 ? layer : own;
+      if (entity.type == "INSERT" && blocks_.count(text_or(entity, 2, "")) > 0) {
+        insert(entity, map, on, depth);
+        continue;
+      }
+      std::optional<Line> line = line_of(entity, per_turn_);
+      if (!line) {
+        others.emplace(entity.type, entity.line);
+        continue;
+      }
+      if (depth > 0) count(entity);
+      for (Point& p : line->points) {
+        p = map(p);
+        if (!std::isfinite(p.real()) || !std::isfinite(p.imag()))
+          throw Fault{entity.line, name_of_entity(entity) + " lies too far away to be drawn",
+                      "check the unit of the drawing and the scale of its blocks"};
+      }
+      line->centre = map(line->centre);
+      const bool round = map.direct == 0.0 || std::abs(map.mirrored) <= 1e-12 * std::abs(map.direct);
+      line->radius = round ? line->radius * (std::abs(map.direct) + std::abs(map.mirrored)) : 0;
+      line->name = name_of_entity(entity);
+      line->layer = on;
+      lines.push_back(std::move(*line));
+    }
+  }
+
+  std::vector<Line> lines;
+  std::map<std::string_view, int> others;  ///< entities that draw no line, with their first lines
+
+ private:
+  static constexpr int deepest = 8;
+  static constexpr std::size_t most_inserted = 20'000;
+
+  /// Blocks within blocks grow beyond all bounds in a small file.
+  void count(const Entity& entity) {
+    if (++inserted_ > most_inserted)
+      throw Fault{entity.line,
+                  fmt::format("the blocks of the drawing draw more than {} lines", most_inserted),
+                  "delete what is not part of the path or linkage"};
+  }
+
+  void insert(const Entity& entity, const InsertMap& map, const std::string& layer, int depth) {
+    if (depth == deepest)
+      throw Fault{entity.line, fmt::format("more than {} blocks lie within each other", deepest),
+                  "explode the blocks in the CAD program, and save the drawing again"};
+    const Block& block = blocks_.at(text_or(entity, 2, ""));
+    const double columns = number_or(entity, 70, 1), rows = number_or(entity, 71, 1);
+    if (!(columns * rows <= 1000))
+      throw Fault{entity.line, fmt::format("{} has more than 1000 copies", name_of_entity(entity)),
+                  "delete what is not part of the path or linkage"};
+    for (int column = 0; column < std::max(1.0, columns); ++column)
+      for (int row = 0; row < std::max(1.0, rows); ++row) {
+        count(entity);
+        add(block.entities, map * map_of(entity, block, column, row), layer, depth + 1);
+      }
+  }
+
+  std::map<std::string_view, Block> blocks_;
+  std::size_t per_turn_, inserted_ = 0;
+};
+
+/// Entities that are seen: group 67 marks the sheets that are printed, group 60 what is hidden.
+void keep_seen(std::vector<Entity>& entities) {
+  std::erase_if(entities, [](const Entity& entity) {
+    return number_or(entity, 67, 0) == 1 || number_or(entity, 60, 0) == 1;
+  });
+}
+
 }  // namespace
 
 std::vector<Line> dxf_file_lines(std::string_view text, bool& has_unit) {
   const std::vector<Group> groups = groups_of(text);
   const std::optional<double> unit = unit_of_drawing(groups);
   has_unit = unit.has_value();
-  std::vector<Entity> entities = entities_of(groups);
-  // Group 67 marks the sheets that are printed, group 60 what is hidden.
-  std::erase_if(entities, [](const Entity& entity) {
-    return number_or(entity, 67, 0) == 1 || number_or(entity, 60, 0) == 1;
-  });
+  std::vector<Entity> entities = entities_of(groups, "ENTITIES");
+  keep_seen(entities);
+  std::map<std::string_view, Block> blocks = blocks_of(groups);
   std::size_t curves = 0;
-  for (const Entity& entity : entities) curves += 1 + entity.groups.size() / 4 + entity.vertices.size();
-  const std::size_t per_turn = curve_steps(curves, most_points_a_turn);
-  std::vector<Line> lines;
-  std::map<std::string_view, int> others;
-  for (const Entity& entity : entities) {
-    std::optional<Line> line = line_of(entity, per_turn);
-    if (!line) {
-      others.emplace(entity.type, entity.line);
-      continue;
-    }
-    for (Point& p : line->points) p *= unit.value_or(1);
-    line->centre *= unit.value_or(1);
-    line->radius *= unit.value_or(1);
-    line->name = name_of_entity(entity);
-    line->layer = layer_of(entity);
-    lines.push_back(std::move(*line));
+  const auto count = [&](const std::vector<Entity>& list) {
+    for (const Entity& entity : list) curves += 1 + entity.groups.size() / 4 + entity.vertices.size();
+  };
+  count(entities);
+  for (auto& [name, block] : blocks) {
+    keep_seen(block.entities);
+    count(block.entities);
   }
-  if (lines.empty()) throw no_entity(others);
-  return lines;
+  DxfLines out(std::move(blocks), curve_steps(curves, most_points_a_turn));
+  out.add(entities, {unit.value_or(1), 0, 0}, "0", 0);
+  if (out.lines.empty()) throw no_entity(out.others);
+  return std::move(out.lines);
 }
 
 Line dxf_file_line(std::string_view text, bool& has_unit) {

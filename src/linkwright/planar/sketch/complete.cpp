@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ std::vector<std::size_t> lowest(const Sketch& sketch) {
 void fix(Sketch& sketch, const std::vector<std::size_t>& points) {
   sketch.bodies.insert(sketch.bodies.begin(), {SketchBodyType::ground, {}, points});
   for (SketchJoint& joint : sketch.joints) ++joint.first, ++joint.second;
+  for (SketchGear& gear : sketch.gears)
+    for (std::size_t& body : gear.bodies) ++body;
   std::vector<SketchJoint> pins;
   for (const std::size_t point : points)
     for (std::size_t body = 1; body < sketch.bodies.size(); ++body) {
@@ -52,18 +55,39 @@ void fix(Sketch& sketch, const std::vector<std::size_t>& points) {
   sketching::name_sketch(sketch);
 }
 
-/// The greatest distance of two points of a body.
-double size_of(const Sketch& sketch, const SketchBody& body) {
+/// The greatest distance of two points of a body, or the diameter of a wheel.
+double size_of(const Sketch& sketch, std::size_t index) {
+  const SketchBody& body = sketch.bodies[index];
   double size = 0;
   for (const std::size_t a : body.points)
     for (const std::size_t b : body.points)
       size = std::max(size, std::abs(sketch.points[a].at - sketch.points[b].at));
+  for (const SketchGear& gear : sketch.gears)
+    for (std::size_t side = 0; side < 2; ++side)
+      if (gear.bodies[side] == index) size = std::max(size, 2 * gear.radii[side]);
   return size;
+}
+
+/// The joint of a driven point: of a wheel that turns there, else the first that moves.
+std::optional<std::size_t> joint_at(Sketch& sketch, std::size_t point) {
+  std::vector<std::size_t> joints;
+  for (std::size_t k = 0; k < sketch.joints.size(); ++k)
+    if (sketch.joints[k].point == point && sketch.joints[k].type != JointType::fixed) joints.push_back(k);
+  if (joints.empty()) return std::nullopt;
+  const auto wheel = std::find_if(joints.begin(), joints.end(), [&](std::size_t k) {
+    return sketch.bodies[sketch.joints[k].second].type == SketchBodyType::wheel;
+  });
+  const std::size_t chosen = wheel == joints.end() ? joints.front() : *wheel;
+  if (joints.size() > 1)
+    sketch.questions.push_back({fmt::format("{} joints lie at the driven point {}: which is driven?",
+                                            joints.size(), sketch.points[point].name),
+                                sketch.joints[chosen].name});
+  return chosen;
 }
 
 }  // namespace
 
-std::size_t complete(Sketch& sketch) {
+void complete(Sketch& sketch) {
   if (sketch.bodies.empty() || sketch.bodies[0].type != SketchBodyType::ground) {
     const std::vector<std::size_t> points = lowest(sketch);
     std::string names;
@@ -72,16 +96,13 @@ std::size_t complete(Sketch& sketch) {
     fix(sketch, points);
     sketch.questions.push_back({"no layer is called ground: which points are fixed?", names});
   }
+  for (const std::size_t point : sketch.driven)
+    if (const auto joint = joint_at(sketch, point)) sketch.drives.push_back({*joint, 0});
+  if (!sketch.drives.empty()) return;
   const auto moves = [&](const SketchJoint& joint) {
     return joint.first == 0 && joint.type != JointType::fixed;
   };
   std::size_t chosen = sketch.joints.size();
-  for (std::size_t k = 0; k < sketch.joints.size(); ++k) {
-    const SketchJoint& joint = sketch.joints[k];
-    const bool drawn =
-        std::find(sketch.driven.begin(), sketch.driven.end(), joint.point) != sketch.driven.end();
-    if (drawn && joint.type != JointType::fixed) return k;
-  }
   // The shortest bar at the ground turns most easily; a slide is driven where nothing turns.
   double shortest = infinity;
   for (const JointType type : {JointType::revolute, JointType::prismatic})
@@ -89,7 +110,7 @@ std::size_t complete(Sketch& sketch) {
          ++k) {
       const SketchJoint& joint = sketch.joints[k];
       if (!moves(joint) || joint.type != type) continue;
-      const double size = size_of(sketch, sketch.bodies[joint.second]);
+      const double size = size_of(sketch, joint.second);
       if (chosen < sketch.joints.size() && !(size < shortest)) continue;
       chosen = k;
       shortest = size;
@@ -99,7 +120,7 @@ std::size_t complete(Sketch& sketch) {
           ? fmt::format("{}, the joint of the shortest bar at the ground", sketch.joints[chosen].name)
           : "none";
   sketch.questions.push_back({"no circle lies on a layer called drive: which pin is driven?", assumed});
-  return chosen;
+  if (chosen < sketch.joints.size()) sketch.drives = {{chosen, 0}};
 }
 
 namespace {
@@ -137,6 +158,49 @@ std::string text_of_joints(const Sketch& sketch) {
   return out;
 }
 
+std::string text_of_gears(const Sketch& sketch) {
+  std::string out;
+  for (const SketchGear& gear : sketch.gears) {
+    out +=
+        fmt::format("\n[[mechanism.joint]]\nname   = \"{}\"\ntype   = \"gear\"\nfirst  = {}\nsecond = {}\n",
+                    gear.name, point_name(sketch, gear.bodies[0], gear.points[0]),
+                    point_name(sketch, gear.bodies[1], gear.points[1]));
+    if (!(gear.radii[0] > 0)) {
+      out += fmt::format("ratio  = {}\n", gear.ratio);
+      continue;
+    }
+    out += fmt::format("pitch_radii_mm = [{}, {}]\n", mm(gear.radii[0]), mm(gear.radii[1]));
+    if (gear.ratio > 0)
+      out += fmt::format("internal = \"{}\"\n", gear.radii[0] > gear.radii[1] ? "first" : "second");
+  }
+  return out;
+}
+
+/// The drives, and the range over which they move: of a single one that in which the linkage assembles, of
+/// several a turn of each.
+std::string text_of_drives(const Sketch& sketch) {
+  if (sketch.drives.empty()) return {};
+  std::string out;
+  double size = 0;
+  for (std::size_t body = 0; body < sketch.bodies.size(); ++body)
+    size = std::max(size, size_of(sketch, body));
+  std::string inputs;
+  for (const SketchDrive& drive : sketch.drives) {
+    const SketchJoint& joint = sketch.joints[drive.joint];
+    const bool turns = joint.type == JointType::revolute;
+    const double speed = drive.speed != 0 ? drive.speed * (turns ? 30 / pi : 1000) : 10;
+    out += fmt::format("\n[[drive]]\njoint     = \"{}\"\n{} = {}\n", joint.name,
+                       turns ? "speed_rpm" : "speed_mm_per_s", std::round(speed * 1e6) / 1e6);
+    inputs += fmt::format("\n[[sweep.input]]\njoint    = \"{}\"\n", joint.name);
+    inputs += turns ? std::string("from_deg = -180\nto_deg   = 180\n")
+                    : fmt::format("from_mm  = {}\nto_mm    = {}\n", -mm(size), mm(size));
+    inputs += fmt::format("samples  = {}\n", sketch.drives.size() > 1 ? 19 : 361);
+  }
+  out += "\n# The range around the drawing.\n[sweep]\ntype  = \"grid\"\n";
+  if (sketch.drives.size() == 1) out += "range = \"assembled\"\n";
+  return out + inputs;
+}
+
 /// A sentence as a comment of a file: without line breaks, which the name of a layer may have.
 std::string comment(std::string text) {
   for (char& c : text)
@@ -146,28 +210,13 @@ std::string comment(std::string text) {
 
 }  // namespace
 
-std::string sketch_study(const Sketch& sketch, std::size_t driven, const std::string& title) {
+std::string sketch_study(const Sketch& sketch, const std::string& title) {
   std::string out = comment("linkwright study: " + title);
   for (const SketchQuestion& question : sketch.questions)
     out += comment(fmt::format("Open question: {} Assumed: {}.", question.text, question.assumed));
   for (const std::string& sentence : sketch.left_out) out += comment("Not read: " + sentence + ".");
   out += "schema = 1\nkind   = \"analysis\"\n\n[mechanism]\ntype  = \"planar.linkage\"\ndrawn = true\n";
-  out += text_of_bodies(sketch) + text_of_joints(sketch);
-  if (driven < sketch.joints.size()) {
-    const SketchJoint& joint = sketch.joints[driven];
-    const bool turns = joint.type == JointType::revolute;
-    double size = 0;
-    for (const SketchBody& body : sketch.bodies) size = std::max(size, size_of(sketch, body));
-    out += fmt::format("\n[[drive]]\njoint     = \"{}\"\n{}\n", joint.name,
-                       turns ? "speed_rpm = 10" : "speed_mm_per_s = 10");
-    out +=
-        "\n# The range in which the linkage assembles, around the drawing.\n[sweep]\ntype  = \"grid\"\n"
-        "range = \"assembled\"\n\n[[sweep.input]]\n";
-    out += fmt::format("joint    = \"{}\"\n", joint.name);
-    out += turns ? std::string("from_deg = -180\nto_deg   = 180\n")
-                 : fmt::format("from_mm  = {}\nto_mm    = {}\n", -mm(size), mm(size));
-    out += "samples  = 361\n";
-  }
+  out += text_of_bodies(sketch) + text_of_joints(sketch) + text_of_gears(sketch) + text_of_drives(sketch);
   for (const std::size_t point : sketch.traced)
     for (std::size_t body = 0; body < sketch.bodies.size(); ++body) {
       const SketchBody& b = sketch.bodies[body];

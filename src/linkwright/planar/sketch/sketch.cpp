@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,7 @@ using sketching::distance, sketching::least_corner, sketching::left_below, sketc
     sketching::pieces_of, sketching::Place, sketching::Segment, sketching::shown_place, sketching::turn_at;
 
 /// What the layer of a shape says about it.
-enum class Role { link, ground, slide, drive, trace, construction, wheel };
+enum class Role { link, ground, slide, drive, trace, construction, gear, belt };
 
 Role role_of(const std::string& layer) {
   std::string word;
@@ -38,8 +39,8 @@ Role role_of(const std::string& layer) {
                                                                     {"trace", Role::trace},
                                                                     {"construction", Role::construction},
                                                                     {"defpoints", Role::construction},
-                                                                    {"gear", Role::wheel},
-                                                                    {"belt", Role::wheel}}};
+                                                                    {"gear", Role::gear},
+                                                                    {"belt", Role::belt}}};
   for (const auto& [name, role] : roles)
     if (word.starts_with(name)) return role;
   return Role::link;
@@ -50,6 +51,14 @@ struct Outline {
   SketchBodyType type = SketchBodyType::bar;
   std::vector<Place> corners;
   std::vector<Segment> edges;
+};
+
+/// A circle of the layer "gear".
+struct DrawnWheel {
+  Place centre;
+  double radius = 0;
+  std::string layer;
+  std::size_t node = 0, body = 0;
 };
 
 /// The reading of one drawing, rule by rule.
@@ -65,8 +74,9 @@ class Reader {
   }
 
   Sketch read() {
-    if (bodies_.empty()) return std::move(out_);
+    if (bodies_.empty() && wheels_.empty()) return std::move(out_);
     std::vector<Place> places;
+    for (const DrawnWheel& wheel : wheels_) places.push_back(wheel.centre);
     for (const Outline& body : bodies_) places.insert(places.end(), body.corners.begin(), body.corners.end());
     for (const auto* more : {&circles_, &ground_circles_, &ground_corners_, &driven_, &traced_})
       places.insert(places.end(), more->begin(), more->end());
@@ -82,6 +92,7 @@ class Reader {
     attach_circles();
     attach_ends();
     add_slides();
+    add_gears();
     add_pins();
     mark(driven_, out_.driven, "drive");
     mark(traced_, out_.traced, "trace");
@@ -93,22 +104,19 @@ class Reader {
   void take(const DrawnShape& shape) {
     const Role role = role_of(shape.layer);
     if (role == Role::construction) return;
-    if (role == Role::wheel) {
+    if (role == Role::belt) {
       out_.left_out.push_back(
-          fmt::format("{} on the layer {} is a wheel: wheels of gears and belts are not "
-                      "read from drawings; add the joint or the belt to the study",
+          fmt::format("{} on the layer {}: belts are not read from drawings; add the belt to the study",
                       shape.name, shape.layer));
-      return;
-    }
-    if (shape.radius > 0) {
+    } else if (role == Role::gear) {
+      take_wheel(shape);
+    } else if (shape.radius > 0) {
       (role == Role::ground  ? ground_circles_
        : role == Role::drive ? driven_
        : role == Role::trace ? traced_
                              : circles_)
           .push_back(shape.centre);
-      return;
-    }
-    if (role == Role::slide) {
+    } else if (role == Role::slide) {
       for (const Segment& piece : pieces_of(shape)) slides_.push_back(piece);
     } else if (role == Role::ground) {
       take_ground(shape);
@@ -120,6 +128,14 @@ class Reader {
     } else {
       take_bars(shape);
     }
+  }
+
+  void take_wheel(const DrawnShape& shape) {
+    if (shape.radius > 0)
+      wheels_.push_back({shape.centre, shape.radius, shape.layer});
+    else
+      out_.left_out.push_back(
+          fmt::format("{} on the layer {} is not a circle; a circle is a wheel", shape.name, shape.layer));
   }
 
   void take_ground(const DrawnShape& shape) {
@@ -314,6 +330,111 @@ class Reader {
     }
   }
 
+  /// Wheels that touch are a pair of gears on the body that has points at both centres. A wheel belongs to
+  /// the bar or plate at its centre that carries none of its pairs; without one it is a body of its own, or
+  /// the ground on a layer such as "gear ground".
+  void add_gears() {
+    std::sort(wheels_.begin(), wheels_.end(), [](const DrawnWheel& a, const DrawnWheel& b) {
+      return std::tuple(a.centre.real(), a.centre.imag(), a.radius) <
+             std::tuple(b.centre.real(), b.centre.imag(), b.radius);
+    });
+    for (DrawnWheel& wheel : wheels_) wheel.node = nodes_.at(wheel.centre);
+    const std::vector<MeshingWheels> pairs = meshing_wheels();
+    for (std::size_t i = 0; i < wheels_.size(); ++i) give_body(i, pairs);
+    for (const auto& [first, second, internal] : pairs) {
+      const DrawnWheel &a = wheels_[first], &b = wheels_[second];
+      if (a.body != b.body)
+        out_.gears.push_back({{},
+                              {a.body, b.body},
+                              {a.node, b.node},
+                              {a.radius, b.radius},
+                              (internal ? 1 : -1) * a.radius / b.radius});
+    }
+  }
+
+  /// Two wheels whose circles touch, by their indices.
+  struct MeshingWheels {
+    std::size_t first = 0, second = 0;
+    bool internal = false;
+  };
+
+  std::vector<MeshingWheels> meshing_wheels() {
+    std::vector<MeshingWheels> out;
+    std::vector<bool> meshes(wheels_.size());
+    for (std::size_t i = 0; i < wheels_.size(); ++i)
+      for (std::size_t k = i + 1; k < wheels_.size(); ++k) {
+        const DrawnWheel &a = wheels_[i], &b = wheels_[k];
+        const double apart = std::abs(a.centre - b.centre);
+        const double outside = std::abs(apart - a.radius - b.radius);
+        const double inside = std::abs(apart - std::abs(a.radius - b.radius));
+        if (a.node == b.node || std::min(outside, inside) > 10 * tolerance_) continue;
+        const std::string where =
+            fmt::format("the wheels around {} and {}", shown_place(a.centre), shown_place(b.centre));
+        meshes[i] = meshes[k] = true;
+        if (carriers(a.node, b.node).empty()) {
+          out_.left_out.push_back(where + " touch, but no link or ground has points at both centres");
+          continue;
+        }
+        if (std::min(outside, inside) > tolerance_)
+          out_.questions.push_back({fmt::format("{} miss each other by {:.3g} mm: do they mesh?", where,
+                                                std::min(outside, inside) * 1000),
+                                    "they do"});
+        out.push_back({i, k, inside < outside});
+      }
+    for (std::size_t i = 0; i < wheels_.size(); ++i)
+      if (!meshes[i])
+        out_.left_out.push_back(fmt::format("the wheel around {} touches no other wheel, and is left out",
+                                            shown_place(wheels_[i].centre)));
+    return out;
+  }
+
+  /// The bodies that have points at both nodes.
+  std::vector<std::size_t> carriers(std::size_t first, std::size_t second) const {
+    std::vector<std::size_t> out;
+    for (const std::size_t body : members_[first])
+      if (has(second, body)) out.push_back(body);
+    return out;
+  }
+
+  void give_body(std::size_t index, const std::vector<MeshingWheels>& pairs) {
+    DrawnWheel& wheel = wheels_[index];
+    std::set<std::size_t> carrying;
+    bool meshes = false;
+    for (const MeshingWheels& pair : pairs) {
+      if (pair.first != index && pair.second != index) continue;
+      meshes = true;
+      for (const std::size_t body : carriers(wheels_[pair.first].node, wheels_[pair.second].node))
+        carrying.insert(body);
+    }
+    if (!meshes) return;
+    const bool fixed = wheel.layer.find("ground") != std::string::npos;
+    if (fixed) {
+      wheel.body = ground();
+      join(wheel.body, wheel.node);
+      return;
+    }
+    const auto same = std::find_if(wheels_.begin(), wheels_.begin() + static_cast<std::ptrdiff_t>(index),
+                                   [&](const DrawnWheel& other) {
+                                     return other.node == wheel.node && other.layer == wheel.layer &&
+                                            wheel.layer.size() > std::string_view("gear").size();
+                                   });
+    if (same != wheels_.begin() + static_cast<std::ptrdiff_t>(index)) {
+      wheel.body = same->body;
+      return;
+    }
+    std::vector<std::size_t> at;
+    for (const std::size_t body : members_[wheel.node])
+      if (carrying.count(body) == 0 &&
+          (out_.bodies[body].type == SketchBodyType::bar || out_.bodies[body].type == SketchBodyType::plate))
+        at.push_back(body);
+    if (at.size() > 1)
+      out_.questions.push_back({fmt::format("{} links meet at the centre {} of a wheel: which turns with it?",
+                                            at.size(), shown_place(wheel.centre)),
+                                "the first by its place"});
+    wheel.body = at.empty() ? add_body(SketchBodyType::wheel, {}) : at.front();
+    join(wheel.body, wheel.node);
+  }
+
   /// The ground; made where the drawing has none.
   std::size_t ground() {
     if (out_.bodies.empty() || out_.bodies[0].type != SketchBodyType::ground) {
@@ -327,18 +448,24 @@ class Reader {
           for (std::size_t& body : bodies) ++body;
       for (auto* joints : {&out_.joints, &welds_})
         for (SketchJoint& joint : *joints) ++joint.first, ++joint.second;
+      for (DrawnWheel& wheel : wheels_) ++wheel.body;
     }
     return 0;
   }
 
-  /// One pin for each neighbouring pair of the bodies that meet at a point.
+  /// One pin for each neighbouring pair of the bodies that meet at a point; a wheel turns about the first.
   void add_pins() {
     std::vector<SketchJoint> pins;
     for (std::size_t node = 0; node < members_.size(); ++node) {
       std::vector<std::size_t> bodies = members_[node];
       std::sort(bodies.begin(), bodies.end());
       for (std::size_t i = 1; i < bodies.size(); ++i)
-        pins.push_back({JointType::revolute, {}, bodies[i - 1], bodies[i], node, 0});
+        pins.push_back({JointType::revolute,
+                        {},
+                        out_.bodies[bodies[i]].type == SketchBodyType::wheel ? bodies[0] : bodies[i - 1],
+                        bodies[i],
+                        node,
+                        0});
     }
     out_.joints.insert(out_.joints.begin(), pins.begin(), pins.end());
     out_.joints.insert(out_.joints.end(), welds_.begin(), welds_.end());
@@ -375,6 +502,8 @@ class Reader {
       for (const std::size_t body : bodies) out_.bodies[body].points.push_back(index[node]);
     }
     for (SketchJoint& joint : out_.joints) joint.point = index[joint.point];
+    for (SketchGear& gear : out_.gears)
+      for (std::size_t& point : gear.points) point = index[point];
     for (auto* marks : {&out_.driven, &out_.traced})
       for (std::size_t& point : *marks) point = index[point];
     sketching::name_sketch(out_);
@@ -385,6 +514,7 @@ class Reader {
   std::vector<Outline> bodies_;
   std::map<std::string, std::vector<Segment>> loose_;  ///< lines by their layer
   std::vector<Segment> slides_, ground_;
+  std::vector<DrawnWheel> wheels_;
   std::vector<Place> circles_, ground_circles_, ground_corners_, driven_, traced_;
   bool has_ground_ = false;
   Nodes nodes_;
@@ -405,7 +535,7 @@ std::size_t count(const Sketch& sketch, JointType type) {
 int mobility(const Sketch& sketch) {
   int out = 3 * (static_cast<int>(sketch.bodies.size()) - 1);
   for (const SketchJoint& joint : sketch.joints) out -= joint.type == JointType::fixed ? 3 : 2;
-  return out;
+  return out - static_cast<int>(sketch.gears.size());
 }
 
 Sketch sketched_linkage(const std::vector<DrawnShape>& shapes, double tolerance) {

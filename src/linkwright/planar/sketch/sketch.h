@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "linkwright/core/diagnostic.h"
 #include "linkwright/planar/drawing/drawing.h"
 #include "linkwright/planar/linkage/linkage.h"
 
-// A linkage from the lines and circles of a drawing: bars and plates are bodies, ends that meet are pins.
+// A linkage from the lines and circles of a drawing, where bars and plates are bodies and ends that meet are
+// pins, or from a file of the program Linkage.
 namespace linkwright::planar {
 
 /// The kinds of bodies that a sketch is read as.
@@ -17,7 +22,8 @@ enum class SketchBodyType {
   ground,  ///< everything that is drawn on the layer "ground", or what was assumed to be fixed
   bar,     ///< a line
   plate,   ///< a closed polyline, or three lines that make a triangle on a layer of their own
-  block    ///< what slides on a line of the layer "slide"
+  block,   ///< what slides on a line of the layer "slide"
+  wheel    ///< a circle of the layer "gear" that no bar or plate carries
 };
 
 /// A point of a sketch at which something was drawn.
@@ -42,6 +48,21 @@ struct SketchJoint {
   double direction = 0;               ///< prismatic: of the line (rad)
 };
 
+/// A pair of gears of a sketch.
+struct SketchGear {
+  std::string name;                     ///< "gear AB", by the centres of its wheels
+  std::array<std::size_t, 2> bodies{};  ///< indices of the wheels
+  std::array<std::size_t, 2> points{};  ///< indices of their centres
+  std::array<double, 2> radii{};        ///< of the pitch circles (m); 0: the ratio alone is known
+  double ratio = 0;  ///< rotation of the second wheel over that of the first, seen from what carries both
+};
+
+/// A joint that a drive moves.
+struct SketchDrive {
+  std::size_t joint = 0;  ///< its index
+  double speed = 0;       ///< rad/s or m/s; 0: not known
+};
+
 /// Something that the drawing leaves open, with what was assumed.
 struct SketchQuestion {
   std::string text;     ///< "no circle lies on a layer called drive: which pin is driven?"
@@ -53,6 +74,8 @@ struct Sketch {
   std::vector<SketchPoint> points;
   std::vector<SketchBody> bodies;
   std::vector<SketchJoint> joints;
+  std::vector<SketchGear> gears;
+  std::vector<SketchDrive> drives;
   std::vector<std::size_t> driven;        ///< indices of points on the layer "drive"
   std::vector<std::size_t> traced;        ///< indices of points on the layer "trace"
   std::vector<SketchQuestion> questions;  ///< in the order in which they arose
@@ -62,16 +85,17 @@ struct Sketch {
 /// The number of joints of a type.
 std::size_t count(const Sketch& sketch, JointType type);
 
-/// The mobility by Gruebler's count: 3 (bodies - 1) - 2 (pins + slides) - 3 welds.
+/// The mobility by Gruebler's count: 3 (bodies - 1) - 2 (pins + slides) - 3 welds - pairs of gears.
 int mobility(const Sketch& sketch);
 
 /// Ends, corners and circles of links in the largest drawing that is read as a linkage.
 inline constexpr std::size_t most_sketch_places = 2000;
 
-/// Reads the shapes of a drawing as a linkage. The layers (or groups of SVG) "ground", "slide", "drive",
-/// "trace" and "construction" say what their shapes are; shapes of other layers are links. Ends within the
-/// tolerance are one point, and those within ten times the tolerance, about which there is a question. The
-/// order of the shapes does not matter.
+/// Reads the shapes of a drawing as a linkage. The layers (or groups of SVG) "ground", "slide", "gear",
+/// "drive", "trace" and "construction" say what their shapes are; shapes of other layers are links. Ends
+/// within the tolerance are one point, and those within ten times the tolerance, about which there is a
+/// question. Circles of the layer "gear" that touch are a pair of gears, carried by the body that has points
+/// at both centres. The order of the shapes does not matter.
 /// @param shapes shapes of the drawing
 /// @param tolerance largest distance of ends that meet (m)
 /// @returns the linkage as it is drawn; without links, or with more than `most_sketch_places`, one without
@@ -79,19 +103,30 @@ inline constexpr std::size_t most_sketch_places = 2000;
 /// @throws ContractError if the tolerance is not positive
 Sketch sketched_linkage(const std::vector<DrawnShape>& shapes, double tolerance);
 
+/// True for the text of a file of the program Linkage (".linkage2").
+bool is_linkage_file(std::string_view text);
+
+/// Reads a file of the program Linkage: connectors are points, links are bodies, anchors lie on the ground,
+/// connectors that slide have a block, an actuator is a barrel with a rod, ratios are pairs of gears. Links
+/// that are fastened to each other are one body. Its coordinates are millimetres.
+/// @param text text in UTF-8 for which `is_linkage_file` is true
+/// @param file name of the file in diagnostics
+/// @param diagnostics receives the error, with its line where there is one
+/// @returns the linkage, none with one error in `diagnostics` where the file cannot be read
+std::optional<Sketch> read_linkage_file(std::string_view text, const std::string& file,
+                                        Diagnostics& diagnostics);
+
 /// Answers what a study needs to know and the drawing does not say: without a ground the two lowest free
 /// ends, else the two lowest pins are fixed; without a drive the shortest bar at the ground is driven. Each
-/// is a question with its assumption.
+/// is a question with its assumption. `sketch.drives` has a drive afterwards where any joint can be driven.
 /// @param sketch sketch with at least one body
-/// @returns the joint that is driven, the last index + 1 where there is none
-std::size_t complete(Sketch& sketch);
+void complete(Sketch& sketch);
 
-/// The study of a linkage, in the words of a file: its bodies and joints as they are drawn, the drive over
-/// the range in which it assembles, questions as comments.
+/// The study of a linkage, in the words of a file: its bodies and joints as they are drawn, one drive over
+/// the range in which it assembles or a grid of several, questions as comments.
 /// @param sketch completed sketch
-/// @param driven joint that is driven
 /// @param title title of the study
 /// @returns a study in TOML
-std::string sketch_study(const Sketch& sketch, std::size_t driven, const std::string& title);
+std::string sketch_study(const Sketch& sketch, const std::string& title);
 
 }  // namespace linkwright::planar

@@ -20,6 +20,7 @@ void name_bodies(Sketch& sketch) {
   for (SketchBody& body : sketch.bodies) {
     std::string name = body.type == SketchBodyType::ground  ? "ground"
                        : body.type == SketchBodyType::block ? "block "
+                       : body.type == SketchBodyType::wheel ? "wheel "
                                                             : "";
     if (body.type != SketchBodyType::ground)
       for (const std::size_t point : body.points) name += sketch.points[point].name;
@@ -36,6 +37,16 @@ void name_joints(Sketch& sketch) {
     name += sketch.points[joint.point].name;
     const int times = ++seen[name];
     joint.name = times > 1 ? fmt::format("{} {}", name, times) : name;
+  }
+}
+
+void name_gears(Sketch& sketch) {
+  std::map<std::string, int> seen;
+  for (SketchGear& gear : sketch.gears) {
+    std::string name = "gear ";
+    for (const std::size_t point : gear.points) name += sketch.points[point].name;
+    const int times = ++seen[name];
+    gear.name = times > 1 ? fmt::format("{} {}", name, times) : name;
   }
 }
 
@@ -128,6 +139,7 @@ std::size_t Nodes::at(Place place) const {
 void name_sketch(Sketch& sketch) {
   name_bodies(sketch);
   name_joints(sketch);
+  name_gears(sketch);
 }
 
 }  // namespace linkwright::planar::sketching

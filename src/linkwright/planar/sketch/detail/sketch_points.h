@@ -64,7 +64,7 @@ class Nodes {
   std::vector<std::size_t> group_, group_of_raw_;
 };
 
-/// Names bodies by their points and joints after theirs.
+/// Names bodies by their points, joints after theirs and gears by their centres.
 void name_sketch(Sketch& sketch);
 
 }  // namespace linkwright::planar::sketching
