@@ -83,6 +83,33 @@ TEST(CamStudy, TellsUndercutAndLostContact) {
   EXPECT_GT(std::count(lost.begin(), lost.end(), 1.0), 10);
 }
 
+TEST(CamStudy, SaysWhetherTwoFacesEncloseTheCam) {
+  // A flat follower on an eccentric, whose rise of 50 mm is harmonic, on a base circle of 25 mm.
+  const std::string text = R"(
+schema = 1
+kind = "analysis"
+[mechanism]
+type = "planar.cam"
+follower = "flat"
+base_radius_mm = 25
+[[mechanism.segment]]
+law = "harmonic"
+over_deg = 180
+to_mm = 50
+[[mechanism.segment]]
+law = "harmonic"
+over_deg = 180
+to_mm = 0
+)";
+  EXPECT_EQ(fact(run_text(text), "breadth between parallel faces"),
+            "100 mm, constant: two faces enclose the cam");
+  const std::string unlike =
+      replaced(replaced(text, "over_deg = 180\nto_mm = 50", "over_deg = 120\nto_mm = 50"),
+               "over_deg = 180\nto_mm = 0", "over_deg = 240\nto_mm = 0");
+  EXPECT_THAT(fact(run_text(unlike), "breadth between parallel faces"),
+              testing::MatchesRegex("90.77.* mm to 109.22.* mm: two faces cannot enclose the cam"));
+}
+
 TEST(CamStudy, SaysWhatIsWrong) {
   const std::string text = cam_text();
   EXPECT_THAT(problems_of(replaced(text, "law      = \"polynomial_345\"\nover_deg = 120.0",

@@ -132,6 +132,47 @@ TEST(LinkageCams, ClassicExerciseHasThePublishedFigures) {
   EXPECT_NEAR(r.table("cam_lift")->find("lift_m")->values[60], 0.005, 1e-15);
 }
 
+// The tappet with a second roller across the shaft, on a disc of its own.
+std::string conjugate_study() {
+  return replaced(replaced(tappet_study("conjugate", 9.81), "points_mm     = { R = [0, 0] }",
+                           "points_mm     = { R = [0, 0], L = [-100, 0] }"),
+                  "roller_radius_mm = 10",
+                  "roller_radius_mm = 10\nsecond_contact = \"tappet.L\"\nsecond_roller_radius_mm = 12");
+}
+
+TEST(LinkageCams, ConjugateDiscsShareTheEffortOfAGroove) {
+  const study::Result both = run_text(conjugate_study()), groove = run_text(tappet_study("groove", 9.81));
+  ASSERT_EQ(both.status, Status::done);
+  const auto column = [](const study::Result& r, const char* key) { return r.tables[0].find(key)->values; };
+  int on_second = 0;
+  for (std::size_t i = 0; i < both.tables[0].rows(); ++i) {
+    const double force = column(both, "lift_contact_N")[i], one = column(groove, "lift_contact_N")[i];
+    EXPECT_NEAR(force * std::cos(column(both, "lift_pressure_angle_rad")[i]),
+                one * std::cos(column(groove, "lift_pressure_angle_rad")[i]), 1e-9 * (1 + std::abs(one)));
+    on_second += force < 0;
+    EXPECT_NEAR(column(both, "shaft_drive_torque_N_m")[i], column(groove, "shaft_drive_torque_N_m")[i],
+                1e-12);
+  }
+  EXPECT_GT(on_second, 50);
+  EXPECT_NE(fact(both, "changes of the carrying disc of lift"), "");
+}
+
+TEST(LinkageCams, SecondDiscTouchesTheSecondRoller) {
+  const study::Result r = run_text(conjugate_study());
+  const Table& disc = *r.table("cam_lift_second_disc");
+  const auto &angle = disc.find("cam_angle_rad")->values, &lift = disc.find("lift_m")->values,
+             &x = disc.find("profile_x_m")->values, &y = disc.find("profile_y_m")->values;
+  for (std::size_t i = 0; i < disc.rows(); ++i) {
+    // The centre lies 100 mm below the first one, which is 50 mm above the shaft; the disc is turned back.
+    const double below = 0.05 + lift[i] - 0.1;
+    const double cx = below * std::sin(angle[i]), cy = below * std::cos(angle[i]);
+    EXPECT_NEAR(std::hypot(x[i] - cx, y[i] - cy), 0.012, 1e-14);
+    for (std::size_t k = 0; k < disc.rows(); k += 5)
+      EXPECT_GT(std::hypot(x[k] - cx, y[k] - cy), 0.012 - 1e-12);
+  }
+  EXPECT_EQ(fact(r, "base circle of lift second disc"), "38 mm");
+}
+
 // Weight holds the lower flank in the dwells; signs of the acceleration and of the weight decide elsewhere.
 TEST(LinkageCams, FlanksOfAGrooveChangeWherePublished) {
   const study::Result r = run_text(tappet_study("groove", 9.81));
@@ -159,7 +200,7 @@ TEST(LinkageCams, AStudyReadsBackAsItIsWritten) {
       replaced(tappet_study(), "roller_radius_mm = 10", "follower = \"flat\"\nsense = \"clockwise\""),
       "base_radius_mm   = 40", "base_radius_mm   = 40\nface_direction_deg = 90\nphase_deg = 15");
   for (const std::string& text :
-       {tappet_study() + tappet_spring, tappet_study("groove"), turning, tabled, flat}) {
+       {tappet_study() + tappet_spring, tappet_study("groove"), conjugate_study(), turning, tabled, flat}) {
     std::string messages;
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages << text;
@@ -207,6 +248,10 @@ TEST(LinkageCams, MessagesSayWhatToMend) {
   EXPECT_THAT(problem("to_mm    = 10", "to_deg   = 10"),
               HasSubstr("the follower of cam 'lift' slides, and has to in deg; write to_mm"));
   EXPECT_THAT(problem("roller_radius_mm = 10\n", ""), HasSubstr("the roller of cam 'lift' has no radius"));
+  EXPECT_THAT(problem("form             = \"outside\"", "form             = \"conjugate\""),
+              HasSubstr("conjugate cam 'lift' has one roller"));
+  EXPECT_THAT(problem("roller_radius_mm = 10", "roller_radius_mm = 10\nsecond_contact = \"tappet.R\""),
+              HasSubstr("cam 'lift' is not conjugate, and has a second roller"));
   EXPECT_THAT(problem("contact          = \"tappet.R\"", "contact          = \"cam.O\""),
               HasSubstr("the contact of cam 'lift' is on 'cam', which is the cam"));
   EXPECT_THAT(problem("base_radius_mm   = 40\n", ""),

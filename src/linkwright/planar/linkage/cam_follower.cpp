@@ -41,6 +41,13 @@ double main_sense(const CamProgramme& programme) {
 
 }  // namespace
 
+Linkage with_second_roller(Linkage linkage, int cam) {
+  LinkageCam& c = linkage.cams[at(cam)];
+  c.contact = c.second_contact, c.roller_radius = c.second_roller_radius;
+  c.form = CamForm::outside;
+  return linkage;
+}
+
 std::optional<CamBodies> bodies_of(const Linkage& l, const LinkageCam& cam) {
   const LinkageJoint &turns = l.joints[at(cam.turns)], &moves = l.joints[at(cam.moves)];
   for (const auto& [base, turning] : {std::pair{turns.first, turns.second}, {turns.second, turns.first}})
@@ -163,12 +170,12 @@ CamState CamFollower::contour(double offset, const math::Motion& m, double angle
   return out;
 }
 
-CamExtremes linkage_cam_extremes(const LinkagePlan& plan, int cam, CamFollower& follower) {
+CamExtremes linkage_cam_extremes(const LinkagePlan& plan, int cam, CamFollower& follower, double roller) {
   const CamPair& pair = plan.cams[at(cam)];
   const auto contour = [&](const math::Motion& m, double angle) {
     return follower.contour(pair.offset, m, angle);
   };
-  return contour_extremes(contour, pair.roller, pair.is_flat, plan.size, pair.programme);
+  return contour_extremes(contour, roller, pair.is_flat, plan.size, pair.programme);
 }
 
 }  // namespace linkwright::planar

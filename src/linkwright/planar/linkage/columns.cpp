@@ -245,7 +245,10 @@ void add_reaction_columns(std::vector<LinkageColumn>& out, const Linkage& l, con
     const std::string pair = fmt::format("{} on {}", l.bodies[at(plan.cams[c].cam_body)].name,
                                          l.bodies[at(l.cams[c].contact.body)].name);
     add_column(out, {key + "contact", fmt::format("{} contact force, {}", name, pair), Dimension::force},
-               [c](const LinkageInstant& i) { return i.forces->cams[c].force; });
+               [c](const LinkageInstant& i) {
+                 const CamContact& contact = i.forces->cams[c];
+                 return contact.on_second ? -contact.force : contact.force;
+               });
     add_column(out, {key + "pressure_angle", name + " pressure angle", Dimension::angle},
                [c](const LinkageInstant& i) { return i.forces->cams[c].pressure_angle; });
   }

@@ -529,7 +529,7 @@ LinkageForm form_of(const Linkage& l) {
     if (b.carrier >= 0) f.carrier = body(b.carrier);
     form.belts.push_back(std::move(f));
   }
-  for (const LinkageCam& c : l.cams) form.cams.push_back(form_of(c, l, point(c.contact)));
+  for (const LinkageCam& c : l.cams) form.cams.push_back(form_of(c, l));
   const bool rotary =
       !l.driven.empty() && l.joints[static_cast<std::size_t>(l.driven[0])].type == JointType::revolute;
   for (const Strut& s : l.struts) form.struts.push_back(form_of(s, point(s.first), point(s.second), rotary));

@@ -179,7 +179,8 @@ struct CamMemberForm {
   std::string name, turns, moves;
   FollowerFace follower = FollowerFace::roller;
   std::string contact;
-  std::optional<double> roller_radius, base_radius, face_direction;
+  std::optional<std::string> second_contact;
+  std::optional<double> roller_radius, second_roller_radius, base_radius, face_direction;
   CamForm form = CamForm::outside;
   Rotation sense = Rotation::counterclockwise;
   double phase = 0;
@@ -583,6 +584,11 @@ void fields(Visitor&& visit, CamMemberForm& c) {
             .required(),
         c.contact);
   visit(field::length("roller_radius", "of a roller").positive(), c.roller_radius);
+  visit(field::entry("second_contact",
+                     "form conjugate: centre of the roller on the second disc, a point of the same body"),
+        c.second_contact);
+  visit(field::length("second_roller_radius", "of that roller; if absent that of the first").positive(),
+        c.second_roller_radius);
   visit(
       field::length("base_radius",
                     "distance of the profile from the centre of the cam where the programme is 0; if absent "

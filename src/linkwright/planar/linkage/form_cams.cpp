@@ -95,6 +95,14 @@ LinkageCam cam_of(const Linkage& l, const CamMemberForm& f, FormNames& names) {
                .form = f.form,
                .is_clockwise = f.sense == Rotation::clockwise,
                .phase = f.phase};
+  if (f.form == CamForm::conjugate && !f.second_contact)
+    names.problem("second_contact", fmt::format("conjugate cam '{}' has one roller", f.name),
+                  "name the centre of the roller that runs on its second disc");
+  if (f.form != CamForm::conjugate && (f.second_contact || f.second_roller_radius))
+    names.problem("second_contact", fmt::format("cam '{}' is not conjugate, and has a second roller", f.name),
+                  "write form = \"conjugate\", or leave the second roller out");
+  if (f.second_contact) c.second_contact = names.point("second_contact", *f.second_contact);
+  if (f.second_contact) c.second_roller_radius = f.second_roller_radius.value_or(c.roller_radius);
   if (f.roller_radius && f.follower != FollowerFace::roller)
     names.problem("roller_radius", fmt::format("a {} follower has no roller", name_of(f.follower)),
                   "leave the radius out");
@@ -107,13 +115,19 @@ LinkageCam cam_of(const Linkage& l, const CamMemberForm& f, FormNames& names) {
   return c;
 }
 
-CamMemberForm form_of(const LinkageCam& c, const Linkage& l, std::string contact) {
+CamMemberForm form_of(const LinkageCam& c, const Linkage& l) {
+  const auto point = [&l](const BodyPoint& p) {
+    const LinkageBody& body = l.bodies[static_cast<std::size_t>(p.body)];
+    return body.name + "." + body.points[static_cast<std::size_t>(p.point)].name;
+  };
   const bool rotary = l.joints[static_cast<std::size_t>(c.moves)].type == JointType::revolute;
   CamMemberForm f{.name = c.name,
                   .turns = l.joints[static_cast<std::size_t>(c.turns)].name,
                   .moves = l.joints[static_cast<std::size_t>(c.moves)].name,
                   .follower = c.face,
-                  .contact = std::move(contact)};
+                  .contact = point(c.contact)};
+  if (c.form == CamForm::conjugate)
+    f.second_contact = point(c.second_contact), f.second_roller_radius = c.second_roller_radius;
   if (c.face == FollowerFace::roller) f.roller_radius = c.roller_radius;
   if (c.face == FollowerFace::flat) f.face_direction = c.face_direction;
   f.base_radius = c.base_radius;

@@ -184,6 +184,19 @@ class Checker {
       error(key, "its tension must be finite and not negative", {});
   }
   bool has_joint(int joint) const { return joint >= 0 && joint < static_cast<int>(l_.joints.size()); }
+  void conjugate(const std::string& key, const LinkageCam& c) {
+    if (c.face != FollowerFace::roller)
+      error(key, fmt::format("a {} follower has no conjugate cam", name_of(c.face)), "take rollers");
+    if (!has(c.second_contact) || c.second_contact.body != c.contact.body)
+      error(key, fmt::format("the rollers of cam '{}' are not on one body", c.name),
+            "name two points of the follower as contact and second_contact");
+    else if (c.second_contact.point == c.contact.point)
+      error(key, fmt::format("both rollers of cam '{}' lie at one point", c.name),
+            "give the second roller a place of its own, across the centre of the cam from the first");
+    if (!(c.second_roller_radius > 0 && std::isfinite(c.second_roller_radius)))
+      error(key, fmt::format("the second roller of cam '{}' has no radius", c.name),
+            "give second_roller_radius_mm");
+  }
   void cam(const LinkageCam& c) {
     const std::string key = "cam." + c.name;
     if (!has_joint(c.turns) || !has_joint(c.moves) || !has(c.contact))
@@ -204,6 +217,7 @@ class Checker {
             "give it, or write follower = \"knife\" for an edge");
     if (c.form == CamForm::groove && c.face != FollowerFace::roller)
       error(key, fmt::format("a {} follower does not run in a groove", name_of(c.face)), "take a roller");
+    if (c.form == CamForm::conjugate) conjugate(key, c);
     if (c.base_radius && !(*c.base_radius > 0 && std::isfinite(*c.base_radius)))
       error(key, fmt::format("the base circle has the radius {}", *c.base_radius), "give a positive radius");
     if (!std::isfinite(c.phase + c.face_direction)) error(key, "its angles are not finite", {});

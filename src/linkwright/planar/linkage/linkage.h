@@ -403,12 +403,14 @@ struct Belt {
 
 /// The contour of a cam.
 enum class CamForm {
-  outside,  ///< a disc, on which the follower is pressed
-  groove    ///< a slot with two flanks between which a roller runs
+  outside,   ///< a disc, on which the follower is pressed
+  groove,    ///< a slot with two flanks between which a roller runs
+  conjugate  ///< two discs side by side, each with a roller of the follower
 };
-constexpr std::array<EnumName<CamForm>, 2> names(CamForm) {
+constexpr std::array<EnumName<CamForm>, 3> names(CamForm) {
   return {{{CamForm::outside, "outside", "a disc, on which the follower is pressed"},
-           {CamForm::groove, "groove", "a slot with two flanks between which a roller runs"}}};
+           {CamForm::groove, "groove", "a slot with two flanks between which a roller runs"},
+           {CamForm::conjugate, "conjugate", "two discs side by side, each with a roller of the follower"}}};
 }
 
 /// A cam as a member of a linkage: the coordinate of one joint, from where the follower touches the base
@@ -425,6 +427,8 @@ struct LinkageCam {
   /// Distance of the contour from the centre where the programme is 0 (m); nothing: as the start poses show
   /// the follower, which is then where its programme is 0.
   std::optional<double> base_radius;
+  BodyPoint second_contact;         ///< conjugate: centre of the roller on the second disc, on the same body
+  double second_roller_radius = 0;  ///< conjugate: radius of that roller, m, > 0
   double face_direction = 0;        ///< direction of a flat face in the frame of its body (rad)
   CamForm form = CamForm::outside;  ///< contour of the cam
   bool is_clockwise = false;  ///< the programme goes over the clockwise angle of the cam from its carrier

@@ -232,13 +232,14 @@ struct CamContact {
   math::Vec2 point{0, 0};   ///< place of the contact on the cam, global, m
   math::Vec2 normal{0, 0};  ///< outward normal of the cam, global, unit vector
   /// Force of the cam on its follower along the normal (N); negative where the cam would have to pull, which
-  /// only the other flank of a groove does.
+  /// only the other flank of a groove does. The second disc of a conjugate cam pushes instead.
   double force = 0;
   /// From the way in which the cam pushes the follower to the normal, rad, as CamState has it.
   double pressure_angle = 0;
   /// Effort on the moved joint by unit of force: cosine of the pressure angle, or m; negative where the cam
   /// pushes against the sense in which the coordinate of the joint counts.
   double lever = 0;
+  bool on_second = false;  ///< conjugate: the second disc carries
 };
 
 /// Joint forces of a linkage at one instant; use one again and again.

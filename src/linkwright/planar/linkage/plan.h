@@ -138,6 +138,8 @@ struct CamPair {
       moved_first,           ///< side of the first body of the moved joint
       moved_second;          ///< side of its second body
   PartPoint contact;         ///< centre of the roller, edge or point of the face, and direction of the face
+  PartPoint second_contact;  ///< conjugate: centre of the roller on the second disc
+  double second_roller = 0;  ///< conjugate: radius of that roller, m; 0: there is none
   int cam_body = 0;          ///< body of the cam, index in the linkage
   int joint = -1;            ///< the moved joint, index in the linkage
   bool slide = false;        ///< it is a slide, else a pin

@@ -84,6 +84,8 @@ void add_cams(PlanDraft& d) {
                  .roller = c.roller(),
                  .is_sector = c.programme.is_sector,
                  .programme = ProgrammeCurve(c.programme)};
+    if (c.form == CamForm::conjugate)
+      pair.second_contact = on_part(d, c.second_contact, 0), pair.second_roller = c.second_roller_radius;
     if (pair.contact.part == pair.cam.part || pair.contact.part == pair.base.part)
       return d.error(
           key,

@@ -204,38 +204,55 @@ Travel travel_of(const LinkagePlan& plan, std::size_t cam, const LinkageMotion& 
   return {{effort({{1, 0}, 0}), effort({{0, 1}, 0})}, c.is_flat ? effort({{0, 0}, 1}) : 0};
 }
 
-// Where the cams touch their followers, without their forces: the normal is that of the path of the follower
-// in the frame of the cam.
+// Where a cam touches its follower at a point with a roller, without its force: the normal is that of the
+// path of the follower in the frame of the cam.
+CamContact contact_at(const LinkagePlan& plan, std::size_t k, const LinkageMotion& motion,
+                      const PartPoint& touching, double roller, LinkageForces& f) {
+  const CamPair& c = plan.cams[k];
+  CamContact contact;
+  const PartState<double>& body = motion.parts[at(touching.part)];
+  const double angle = cam_angle(c, [&](int part) { return angle_of(motion.parts[at(part)].direction); });
+  const double rate = programme_at(c, angle).rate;
+  const math::Vec2 point = point_on(body, touching.at),
+                   way = point - point_on(motion.parts[at(c.base.part)], c.base.at);
+  const Travel travel = travel_of(plan, k, motion, point, f);
+  // By radian of the cam, seen from it.
+  const math::Vec2 path = rate * travel.velocity - c.sense * perpendicular(way);
+  math::Vec2 moved = travel.velocity;
+  if (c.is_flat) {
+    const math::Vec2 along = rotate(body.direction, touching.direction), across = perpendicular(along);
+    contact.normal = dot(across, way) < 0 ? -across : across;
+    const double place = -dot(across, path) / (rate * travel.turning - c.sense);
+    contact.point = point + place * along;
+    moved = moved + travel.turning * place * across;
+  } else {
+    contact.normal = c.sense / norm(path) * perpendicular(path);
+    contact.point = point - roller * contact.normal;
+  }
+  contact.lever = dot(contact.normal, moved);
+  // The programme may count against the sense in which the cam pushes.
+  if (contact.lever < 0) moved = -moved;
+  contact.pressure_angle = c.sense * angle_of(rotate_inverse(moved, contact.normal));
+  return contact;
+}
+
 void find_contacts(const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
   f.cams.assign(plan.cams.size(), {});
   f.cam_efforts.resize(plan.cams.size());
-  for (std::size_t k = 0; k < plan.cams.size(); ++k) {
-    const CamPair& c = plan.cams[k];
-    CamContact& contact = f.cams[k];
-    const PartState<double>& body = motion.parts[at(c.contact.part)];
-    const double angle = cam_angle(c, [&](int part) { return angle_of(motion.parts[at(part)].direction); });
-    const double rate = programme_at(c, angle).rate;
-    const math::Vec2 point = point_on(body, c.contact.at),
-                     way = point - point_on(motion.parts[at(c.base.part)], c.base.at);
-    const Travel travel = travel_of(plan, k, motion, point, f);
-    // By radian of the cam, seen from it.
-    const math::Vec2 path = rate * travel.velocity - c.sense * perpendicular(way);
-    math::Vec2 moved = travel.velocity;
-    if (c.is_flat) {
-      const math::Vec2 along = rotate(body.direction, c.contact.direction), across = perpendicular(along);
-      contact.normal = dot(across, way) < 0 ? -across : across;
-      const double place = -dot(across, path) / (rate * travel.turning - c.sense);
-      contact.point = point + place * along;
-      moved = moved + travel.turning * place * across;
-    } else {
-      contact.normal = c.sense / norm(path) * perpendicular(path);
-      contact.point = point - c.roller * contact.normal;
-    }
-    contact.lever = dot(contact.normal, moved);
-    // The programme may count against the sense in which the cam pushes.
-    if (contact.lever < 0) moved = -moved;
-    contact.pressure_angle = c.sense * angle_of(rotate_inverse(moved, contact.normal));
-  }
+  for (std::size_t k = 0; k < plan.cams.size(); ++k)
+    f.cams[k] = contact_at(plan, k, motion, plan.cams[k].contact, plan.cams[k].roller, f);
+}
+
+// The contact with the other disc of a conjugate cam, which carries where the present one would have to pull.
+CamContact other_contact(const LinkagePlan& plan, std::size_t k, const LinkageMotion& motion,
+                         const CamContact& now, LinkageForces& f) {
+  const CamPair& c = plan.cams[k];
+  const double effort = now.force * now.lever;
+  CamContact out = now.on_second ? contact_at(plan, k, motion, c.contact, c.roller, f)
+                                 : contact_at(plan, k, motion, c.second_contact, c.second_roller, f);
+  out.on_second = !now.on_second;
+  out.force = effort / out.lever;
+  return out;
 }
 
 // The strands of a belt whose mean tension is given: those without equation take the mean of the others with
@@ -470,6 +487,9 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
     if (f.cams.empty()) return;
     // A contact does the work of the programme that it takes the place of.
     for (std::size_t k = 0; k < f.cams.size(); ++k) f.cams[k].force = f.cam_efforts[k] / f.cams[k].lever;
+    for (std::size_t k = 0; k < f.cams.size(); ++k)
+      if (plan.cams[k].second_roller > 0 && f.cams[k].force < 0)
+        f.cams[k] = other_contact(plan, k, motion, f.cams[k], f);
     pass(plan, l, motion, f);
   };
   const auto balance = [&] {

@@ -176,7 +176,24 @@ class CamReport {
             say("{} to {} from the {}, a face of {} at least", millimetres(found_.least_contact->value, 5),
                 millimetres(found_.greatest_contact->value, 5), rotary_ ? "pivot" : "cam's axis",
                 millimetres(found_.greatest_contact->value - found_.least_contact->value, 5)));
+    if (!s_.cam.has_pitch_curve() && !rotary_ && !s_.programme.is_sector) breadth();
     undercut_findings();
+  }
+
+  // The breadth of a cam between two parallel faces, which a yoke needs to be constant.
+  void breadth() {
+    constexpr int looks = 720;  // of half a turn
+    double least = infinity, greatest = 0;
+    for (int k = 0; k < looks; ++k) {
+      const double angle = pi * k / looks;
+      const double across = 2 * s_.cam.base_radius + curve_(angle).value + curve_(angle + pi).value;
+      least = std::min(least, across), greatest = std::max(greatest, across);
+    }
+    const bool is_constant = greatest - least <= 1e-9 * greatest;
+    fact_("breadth between parallel faces",
+          is_constant ? say("{}, constant: two faces enclose the cam", millimetres(greatest, 6))
+                      : say("{} to {}: two faces cannot enclose the cam", millimetres(least, 6),
+                            millimetres(greatest, 6)));
   }
 
   void undercut_findings() {

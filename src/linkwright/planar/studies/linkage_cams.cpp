@@ -48,7 +48,11 @@ class ContactSweep {
     solve_forces(s_.linkage, s_.plan, motion_, 0, input, forces_);
     return forces_.status == Status::done ? forces_.cams[cam_] : CamContact{.force = nan, .lever = nan};
   }
-  double force(double input) { return contact(input, rate_).force; }
+  // The force of the contact; negative where the other flank, or the second disc, carries.
+  double force(double input) {
+    const CamContact c = contact(input, rate_);
+    return c.on_second ? -c.force : c.force;
+  }
 
   // The ranges of the input in which the force is negative, and where it changes its sign.
   struct Signs {
@@ -144,18 +148,30 @@ class CamReporter {
   void report() {
     std::vector<double> offsets;
     for (const CamPair& pair : s_.plan.cams) offsets.push_back(pair.offset);
-    CamFollower follower(s_.linkage, static_cast<int>(index_), offsets);
-    table(follower);
-    found_ = linkage_cam_extremes(s_.plan, static_cast<int>(index_), follower);
+    const int cam = static_cast<int>(index_);
+    CamFollower follower(s_.linkage, cam, offsets);
+    disc(follower, pair_.roller);
     programme();
-    contour(follower.distance(pair_.offset));
+    if (cam_.form == CamForm::conjugate) {
+      CamFollower second(with_second_roller(s_.linkage, cam), cam, offsets);
+      of_ = " second disc";
+      disc(second, pair_.second_roller);
+      of_.clear();
+    }
     if (has_forces()) forces();
   }
 
  private:
-  std::string label(const std::string& what) const { return fmt::format("{} of {}", what, cam_.name); }
+  std::string label(const std::string& what) const { return fmt::format("{} of {}{}", what, cam_.name, of_); }
 
-  void table(CamFollower& follower) {
+  // A disc against a roller of the follower.
+  void disc(CamFollower& follower, double roller) {
+    table(follower, roller);
+    found_ = linkage_cam_extremes(s_.plan, static_cast<int>(index_), follower, roller);
+    contour(follower.distance(pair_.offset), roller);
+  }
+
+  void table(CamFollower& follower, double roller) {
     constexpr int samples = 361;
     std::vector<double> angles;
     std::vector<Motion> motions;
@@ -165,16 +181,15 @@ class CamReporter {
       motions.push_back(pair_.programme(angles.back()));
       states.push_back(follower.contour(pair_.offset, motions.back(), angles.back()));
     }
-    const std::string name = "cam_" + identifier(cam_.name);
+    const std::string name = "cam_" + identifier(cam_.name + of_);
     result_.tables.push_back(contour_table(
-        name,
-        {rotary_, pair_.roller, pair_.is_flat, s_.plan.size, "contact along the face from its point (m)"},
+        name, {rotary_, roller, pair_.is_flat, s_.plan.size, "contact along the face from its point (m)"},
         angles, motions, states));
     const study::AddPlot plot{result_, {.table = name, .x = "cam_angle_rad", .scene = ""}};
-    const std::string key = identifier(cam_.name) + "-";
-    plot(key + "programme", "Programme of " + cam_.name, {follower_key(rotary_, "")});
-    plot(key + "pressure-angle", "Pressure angle of " + cam_.name, {"pressure_angle_rad"});
-    plot(key + "profile", "Profile of " + cam_.name, {"profile_x_m", "profile_y_m"},
+    const std::string key = identifier(cam_.name + of_) + "-";
+    plot(key + "programme", "Programme of " + cam_.name + of_, {follower_key(rotary_, "")});
+    plot(key + "pressure-angle", "Pressure angle of " + cam_.name + of_, {"pressure_angle_rad"});
+    plot(key + "profile", "Profile of " + cam_.name + of_, {"profile_x_m", "profile_y_m"},
          study::Plot::Style::polar);
   }
 
@@ -186,8 +201,8 @@ class CamReporter {
               "laws without acceleration at their ends, such as cycloidal or polynomial_345, do not shock");
   }
 
-  void contour(double prime) {
-    fact_(label("base circle"), millimetres(std::abs(prime) - pair_.roller, 6));
+  void contour(double prime, double roller) {
+    fact_(label("base circle"), millimetres(std::abs(prime) - roller, 6));
     const CamExtreme& most = std::abs(found_.greatest_pressure.value) > std::abs(found_.least_pressure.value)
                                  ? found_.greatest_pressure
                                  : found_.least_pressure;
@@ -201,26 +216,26 @@ class CamReporter {
             say("{} to {} from its point", millimetres(found_.least_contact->value, 5),
                 millimetres(found_.greatest_contact->value, 5)));
     for (const CamRange& r : found_.undercut) {
-      const Sentence where = say("the profile of '{}' is undercut from {} to {}", cam_.name,
+      const Sentence where = say("the profile of '{}' is undercut from {} to {}", cam_.name + of_,
                                  programme_place(r.from), programme_place(r.to));
       if (pair_.is_flat)
         warn_(where, "take a larger base circle or a longer segment");
       else
         warn_(say("{}: the pitch curve has a radius of {}, the roller one of {}", where,
-                  millimetres(found_.least_convex_pitch->value), millimetres(pair_.roller)),
+                  millimetres(found_.least_convex_pitch->value), millimetres(roller)),
               say("take a roller below {}, or a larger base circle",
                   millimetres(found_.least_convex_pitch->value)));
     }
     if (cam_.form == CamForm::groove && found_.least_concave_pitch &&
-        found_.least_concave_pitch->value < pair_.roller)
+        found_.least_concave_pitch->value < roller)
       warn_(say("the outer flank of '{}' is undercut at {}: the pitch curve has a hollow radius of {}, the "
                 "roller one of {}",
                 cam_.name, programme_place(found_.least_concave_pitch->angle),
-                millimetres(found_.least_concave_pitch->value), millimetres(pair_.roller)),
+                millimetres(found_.least_concave_pitch->value), millimetres(roller)),
             "take a smaller roller, or a larger base circle");
     if (found_.gouge)
       warn_(say("at {} the roller would also cut {} into '{}' at {}", programme_place(found_.gouge->angle),
-                millimetres(found_.gouge->depth, 3), cam_.name, programme_place(found_.gouge->other)),
+                millimetres(found_.gouge->depth, 3), cam_.name + of_, programme_place(found_.gouge->other)),
             "take a smaller roller, or a wider valley");
     const bool whole = found_.undercut.empty() && !found_.gouge;
     fact_(label("undercut"), whole ? "none" : "see the warnings", whole ? Verdict::good : Verdict::bad);
@@ -250,12 +265,15 @@ class CamReporter {
   void forces() {
     ContactSweep sweep(s_, index_);
     const ContactSweep::Signs signs = sweep.signs();
-    if (cam_.form == CamForm::groove) {
+    if (cam_.form != CamForm::outside) {
+      const bool is_groove = cam_.form == CamForm::groove;
       Sentence places;
       for (const double input : signs.changes)
         places += (places.empty() ? Sentence() : Sentence(", ")) + Sentence(place(input));
-      fact_(label("changes of the flank"),
-            signs.changes.empty() ? Sentence("none: one flank carries all of the time") : places);
+      fact_(label(is_groove ? "changes of the flank" : "changes of the carrying disc"),
+            signs.changes.empty() ? Sentence(is_groove ? "none: one flank carries all of the time"
+                                                       : "none: one disc carries all of the time")
+                                  : places);
       return;
     }
     ContactSweep::LiftOff lift_off;
@@ -284,6 +302,7 @@ class CamReporter {
   const LinkageCam& cam_;
   const CamPair& pair_;
   std::size_t index_;
+  std::string of_;  // " second disc" of a conjugate cam
   bool rotary_;
   study::Result& result_;
   CamExtremes found_;

@@ -258,43 +258,50 @@ class Artist {
   }
   // The contours of cams, on their bodies, and what runs on them.
   void cams() {
-    constexpr int corners = 180;
     std::vector<double> offsets;
     for (const CamPair& pair : plan_.cams) offsets.push_back(pair.offset);
     for (std::size_t k = 0; k < l_.cams.size(); ++k) {
-      const LinkageCam& cam = l_.cams[k];
-      const CamPair& pair = plan_.cams[k];
-      CamFollower follower(l_, static_cast<int>(k), offsets);
-      const double whole = pair.programme.breaks().back();
-      const BodyOnPart& on = plan_.bodies[at(pair.cam_body)];
-      const math::Vec2 centre = rotate_inverse(on.turn, pair.cam.at - on.origin),
-                       turned = math::unit(pair.sense * pair.phase);
-      const bool is_groove = cam.form == CamForm::groove;
-      std::vector<int> inner, outer;
-      double low = 0, high = 0;
-      for (int c = 0; c < corners; ++c) {
-        const double angle = whole * c / corners;
-        const CamState state = follower.contour(pair.offset, pair.programme(angle), angle);
-        const auto corner = [&](const math::Vec2& place) {
-          return add_point("", pair.cam_body, number(centre + rotate(turned, place)));
-        };
-        inner.push_back(corner(state.profile));
-        if (is_groove) outer.push_back(corner(state.pitch + pair.roller * state.normal));
-        if (pair.is_flat && std::isfinite(state.contact))
-          low = std::min(low, state.contact), high = std::max(high, state.contact);
-      }
-      if (is_groove) scene_.bodies.push_back({cam.name + " outer flank", std::move(outer), Style::plate});
-      if (cam.programme.is_sector) inner.push_back(add_point("", pair.cam_body, number(centre)));
-      scene_.bodies.push_back({cam.name, std::move(inner), Style::plate});
-      const std::complex<double> touch = l_.bodies[at(cam.contact.body)].points[at(cam.contact.point)].at;
-      if (pair.roller > 0) circle(cam.name + " roller", cam.contact.body, touch, pair.roller);
-      if (!pair.is_flat) continue;
-      const double margin = 0.05 * (high - low) + 0.02 * plan_.size;
-      const std::complex<double> along = std::polar(1.0, cam.face_direction);
-      const int left = add_point("", cam.contact.body, touch + (low - margin) * along),
-                right = add_point("", cam.contact.body, touch + (high + margin) * along);
-      scene_.bodies.push_back({cam.name + " face", {left, right}, Style::bar});
+      const int cam = static_cast<int>(k);
+      CamFollower follower(l_, cam, offsets);
+      disc(k, l_.cams[k], follower, plan_.cams[k].roller, "");
+      if (l_.cams[k].form != CamForm::conjugate) continue;
+      const Linkage other = with_second_roller(l_, cam);
+      CamFollower second(other, cam, offsets);
+      disc(k, other.cams[k], second, plan_.cams[k].second_roller, " second disc");
     }
+  }
+  void disc(std::size_t k, const LinkageCam& cam, CamFollower& follower, double roller, const char* of) {
+    constexpr int corners = 180;
+    const CamPair& pair = plan_.cams[k];
+    const double whole = pair.programme.breaks().back();
+    const BodyOnPart& on = plan_.bodies[at(pair.cam_body)];
+    const math::Vec2 centre = rotate_inverse(on.turn, pair.cam.at - on.origin),
+                     turned = math::unit(pair.sense * pair.phase);
+    const bool is_groove = cam.form == CamForm::groove;
+    std::vector<int> inner, outer;
+    double low = 0, high = 0;
+    for (int c = 0; c < corners; ++c) {
+      const double angle = whole * c / corners;
+      const CamState state = follower.contour(pair.offset, pair.programme(angle), angle);
+      const auto corner = [&](const math::Vec2& place) {
+        return add_point("", pair.cam_body, number(centre + rotate(turned, place)));
+      };
+      inner.push_back(corner(state.profile));
+      if (is_groove) outer.push_back(corner(state.pitch + roller * state.normal));
+      if (pair.is_flat && std::isfinite(state.contact))
+        low = std::min(low, state.contact), high = std::max(high, state.contact);
+    }
+    if (is_groove) scene_.bodies.push_back({cam.name + " outer flank", std::move(outer), Style::plate});
+    if (cam.programme.is_sector) inner.push_back(add_point("", pair.cam_body, number(centre)));
+    scene_.bodies.push_back({cam.name + of, std::move(inner), Style::plate});
+    const std::complex<double> touch = l_.bodies[at(cam.contact.body)].points[at(cam.contact.point)].at;
+    if (roller > 0) circle(cam.name + of + " roller", cam.contact.body, touch, roller);
+    if (!pair.is_flat) return;
+    const double margin = 0.05 * (high - low) + 0.02 * plan_.size;
+    const std::complex<double> along = std::polar(1.0, cam.face_direction);
+    const int left = add_point("", cam.contact.body, touch + (low - margin) * along),
+              right = add_point("", cam.contact.body, touch + (high + margin) * along);
+    scene_.bodies.push_back({cam.name + " face", {left, right}, Style::bar});
   }
   void contact_forces() {
     for (std::size_t k = 0; k < l_.cams.size(); ++k) {

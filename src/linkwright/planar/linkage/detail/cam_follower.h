@@ -11,6 +11,9 @@
 // motion follow the place on the base circle and the contour of the cam.
 namespace linkwright::planar {
 
+// The linkage whose cam runs against the second roller of a conjugate cam.
+Linkage with_second_roller(Linkage linkage, int cam);
+
 // The bodies of a cam: what carries it, what turns with it.
 struct CamBodies {
   BodyPoint base, cam;  // with the centre of the cam on each
@@ -54,7 +57,7 @@ class CamFollower {
   std::optional<LinkageMotion> motion_;
 };
 
-// The extremes of the contour of a cam in its linkage, and its contour at angles of its programme.
-CamExtremes linkage_cam_extremes(const LinkagePlan& plan, int cam, CamFollower& follower);
+// The extremes of the contour of a cam in its linkage, for a roller of the follower.
+CamExtremes linkage_cam_extremes(const LinkagePlan& plan, int cam, CamFollower& follower, double roller);
 
 }  // namespace linkwright::planar

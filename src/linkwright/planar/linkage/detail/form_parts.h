@@ -105,6 +105,6 @@ Belt belt_of(const BeltForm& form, FormNames& names);
 void complete_belt(const Linkage& linkage, const BeltForm& form, bool drawn, Belt& belt, FormNames& names);
 
 LinkageCam cam_of(const Linkage& linkage, const CamMemberForm& form, FormNames& names);
-CamMemberForm form_of(const LinkageCam& cam, const Linkage& linkage, std::string contact);
+CamMemberForm form_of(const LinkageCam& cam, const Linkage& linkage);
 
 }  // namespace linkwright::planar
