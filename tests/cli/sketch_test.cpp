@@ -41,6 +41,7 @@ TEST_F(SketchProgram, WritesAStudyThatRuns) {
             "mobility 1\n"
             "Question: no circle lies on a layer called drive: which pin is driven?\n"
             "  Assumed: A, the joint of the shortest bar at the ground.\n"
+            "The options --ground, --drive and --ends answer otherwise.\n"
             "four-bar.toml written; run it with: linkwright run four-bar.toml\n");
   EXPECT_EQ(err_, "");
   EXPECT_EQ(run({"run", "four-bar.toml", "--quiet"}), 0) << err_;
@@ -77,6 +78,25 @@ TEST_F(SketchProgram, SaysWhatIsWrong) {
   write("words.dxf", "a drawing");
   EXPECT_EQ(run({"sketch", "words.dxf"}), 2);
   EXPECT_THAT(err_, HasSubstr("this is neither an SVG file nor an ASCII DXF drawing"));
+}
+
+TEST_F(SketchProgram, TakesAnswers) {
+  write("bars.dxf", dxf(dxf_line("0", "0,0", "40,90") + dxf_line("0", "40,90", "180,140") +
+                        dxf_line("0", "180,140", "220,0") + dxf_line("0", "90,0", "110,115")));
+  ASSERT_EQ(run({"sketch", "bars.dxf", "--ground", "A,F", "--drive", "F", "--ends", "weld", "-o", "a.toml"}),
+            0)
+      << err_;
+  EXPECT_THAT(out_, HasSubstr("mobility 1"));
+  EXPECT_EQ(out_.find("Question"), std::string::npos) << out_;
+  EXPECT_THAT(text_of(folder_ / "a.toml"), HasSubstr("joint     = \"F\""));
+  EXPECT_EQ(run({"sketch", "bars.dxf", "--drive", "Z"}), 2);
+  EXPECT_THAT(
+      err_, HasSubstr("the drawing has no point 'Z'; its points, from left to right, are A, B, C, D, E, F"));
+  EXPECT_EQ(run({"sketch", "bars.dxf", "--ends", "glue"}), 2);
+  EXPECT_THAT(err_, HasSubstr("--ends 'glue' is none of: weld, pin, nothing"));
+  write("four-bar.dxf", four_bar);
+  EXPECT_EQ(run({"sketch", "four-bar.dxf", "--ground", "A"}), 2);
+  EXPECT_THAT(err_, HasSubstr("--ground names fixed points, and the drawing has a ground"));
 }
 
 }  // namespace

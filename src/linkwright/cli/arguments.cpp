@@ -163,12 +163,17 @@ class Grammar {
     value(
         sketch, "DRAWING", arguments_.drawing,
         "ASCII DXF or SVG: lines are bars, closed polylines plates, ends that meet pins; the layers ground, "
-        "slide, drive, trace and construction say what else lines are")
+        "slide, gear, drive, trace and construction say what else lines are. Or a .linkage2 file")
         ->required();
     value(sketch, "-o,--out", arguments_.file,
           "file to make (default: named after the drawing; - = standard output)", "FILE");
     value(sketch, "--tolerance", arguments_.tolerance, "largest distance of ends that meet (default: 0.01mm)",
           "LENGTH");
+    value(sketch, "--ground", arguments_.ground, "fixed points of a drawing without the layer ground", "A,B")
+        ->delimiter(',');
+    value(sketch, "--drive", arguments_.driven, "points whose joints are driven", "A,B")->delimiter(',');
+    value(sketch, "--ends", arguments_.ends,
+          "what ends on the middle of other lines are: weld, pin or nothing", "WORD");
   }
 
   void list_commands() {

@@ -37,6 +37,9 @@ struct Arguments {
 
   std::string drawing;               ///< sketch: the file
   std::string tolerance = "0.01mm";  ///< option of sketch: largest distance of ends that meet
+  std::vector<std::string> ground;   ///< option of sketch: names of fixed points
+  std::vector<std::string> driven;   ///< option of sketch: names of driven points
+  std::string ends;  ///< option of sketch: what ends on the middle of lines are; empty = asked
 
   std::vector<std::string> inputs;  ///< compare: folders, results and studies; merge: folders
   std::vector<std::string> words;   ///< catalogue, samples, examples: what each line of the list must hold;

@@ -63,12 +63,13 @@ void print_reading(const planar::Sketch& sketch, bool has_unit) {
 /// The linkage of a drawing or of a file of the program Linkage; `has_unit` receives whether it says in which
 /// unit its numbers are. None, with one error in `diagnostics`, where it cannot be read.
 std::optional<planar::Sketch> read_sketch(const std::string& text, const std::string& file, double tolerance,
-                                          bool& has_unit, Diagnostics& diagnostics) {
+                                          const planar::SketchAnswers& answers, bool& has_unit,
+                                          Diagnostics& diagnostics) {
   if (planar::is_linkage_file(text)) return planar::read_linkage_file(text, file, diagnostics);
   const auto drawing = planar::read_shapes(text, file, diagnostics);
   if (!drawing) return std::nullopt;
   has_unit = drawing->has_unit;
-  return planar::sketched_linkage(drawing->shapes, tolerance);
+  return planar::sketched_linkage(drawing->shapes, tolerance, answers);
 }
 
 }  // namespace
@@ -90,9 +91,17 @@ int sketch(const Arguments& arguments, std::span<const study::Kind> kinds) {
                    "write a number with its unit, such as 0.01mm or 0.0005in");
   const std::string text = study::load_file(arguments.drawing, diagnostics);
   if (has_errors(diagnostics)) return refused(bad_input);
+  planar::SketchAnswers answers{.ends = {}, .ground = arguments.ground, .driven = arguments.driven};
+  if (!arguments.ends.empty()) {
+    for (const auto& [end, name, summary] : names(planar::SketchEnd{}))
+      if (name == arguments.ends) answers.ends = end;
+    if (!answers.ends)
+      return problem(fmt::format("--ends '{}' is none of: weld, pin, nothing", arguments.ends),
+                     "say what an end on the middle of another line is");
+  }
   bool has_unit = true;
   std::optional<planar::Sketch> found =
-      read_sketch(text, arguments.drawing, *tolerance, has_unit, diagnostics);
+      read_sketch(text, arguments.drawing, *tolerance, answers, has_unit, diagnostics);
   if (!found) return refused(bad_input);
   planar::Sketch& read = *found;
   if (read.bodies.empty())
@@ -101,7 +110,17 @@ int sketch(const Arguments& arguments, std::span<const study::Kind> kinds) {
         "draw links as lines or closed polylines on a layer that is not called ground, slide, drive, "
         "trace or construction");
   if (arguments.file != "-") print_reading(read, has_unit);
-  complete(read);
+  if (const auto name = unknown_point(read, answers)) {
+    std::string all;
+    for (const planar::SketchPoint& point : read.points) all += (all.empty() ? "" : ", ") + point.name;
+    return problem(fmt::format("the drawing has no point '{}'", *name),
+                   fmt::format("its points, from left to right, are {}", all));
+  }
+  if (!read.bodies.empty() && read.bodies[0].type == planar::SketchBodyType::ground &&
+      !answers.ground.empty())
+    return problem("--ground names fixed points, and the drawing has a ground",
+                   "leave the option out, or the layer ground");
+  complete(read, answers);
   const fs::path source(arguments.drawing);
   const std::string study = sketch_study(read, "the linkage drawn in " + source.filename().string());
   if (arguments.file == "-") {
@@ -111,6 +130,7 @@ int sketch(const Arguments& arguments, std::span<const study::Kind> kinds) {
   fmt::print("mobility {}\n", mobility(read));
   for (const planar::SketchQuestion& question : read.questions)
     fmt::print("Question: {}\n  Assumed: {}.\n", question.text, question.assumed);
+  if (!read.questions.empty()) fmt::print("The options --ground, --drive and --ends answer otherwise.\n");
   for (const std::string& sentence : read.left_out) fmt::print("Not read: {}.\n", sentence);
   const std::string file = arguments.file.empty() ? source.stem().string() + ".toml" : arguments.file;
   const app::Copied copied = app::write_new(file, study, diagnostics);

@@ -87,8 +87,18 @@ std::optional<std::size_t> joint_at(Sketch& sketch, std::size_t point) {
 
 }  // namespace
 
-void complete(Sketch& sketch) {
-  if (sketch.bodies.empty() || sketch.bodies[0].type != SketchBodyType::ground) {
+void complete(Sketch& sketch, const SketchAnswers& answers) {
+  const auto points_of = [&](const std::vector<std::string>& names) {
+    std::vector<std::size_t> out;
+    for (const std::string& name : names) out.push_back(sketching::point_named(sketch, name).value());
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  };
+  const bool has_ground = !sketch.bodies.empty() && sketch.bodies[0].type == SketchBodyType::ground;
+  if (!has_ground && !answers.ground.empty()) {
+    fix(sketch, points_of(answers.ground));
+  } else if (!has_ground) {
     const std::vector<std::size_t> points = lowest(sketch);
     std::string names;
     for (const std::size_t point : points)
@@ -96,6 +106,7 @@ void complete(Sketch& sketch) {
     fix(sketch, points);
     sketch.questions.push_back({"no layer is called ground: which points are fixed?", names});
   }
+  if (!answers.driven.empty()) sketch.driven = points_of(answers.driven), sketch.drives.clear();
   for (const std::size_t point : sketch.driven)
     if (const auto joint = joint_at(sketch, point)) sketch.drives.push_back({*joint, 0});
   if (!sketch.drives.empty()) return;

@@ -64,7 +64,8 @@ struct DrawnWheel {
 /// The reading of one drawing, rule by rule.
 class Reader {
  public:
-  Reader(const std::vector<DrawnShape>& shapes, double tolerance) : tolerance_(tolerance) {
+  Reader(const std::vector<DrawnShape>& shapes, double tolerance, std::optional<SketchEnd> ends)
+      : tolerance_(tolerance), ends_(ends) {
     for (const DrawnShape& shape : shapes) take(shape);
     find_triangles();
     for (const auto& [layer, lines] : loose_)
@@ -271,10 +272,17 @@ class Reader {
       if (on_ground) join(0, node);
       for (std::size_t body = 0; body < out_.bodies.size(); ++body) {
         if (has(node, body) || !on_edge(body, at)) continue;
-        out_.questions.push_back({fmt::format("the line that ends at {} ends on the middle of another line, "
-                                              "where no circle is drawn: is it a pin, a weld or nothing?",
-                                              shown_place(at)),
-                                  "a weld"});
+        if (ends_ == SketchEnd::nothing) continue;
+        if (ends_ == SketchEnd::pin) {
+          join(body, node);
+          continue;
+        }
+        if (!ends_)
+          out_.questions.push_back(
+              {fmt::format("the line that ends at {} ends on the middle of another line, "
+                           "where no circle is drawn: is it a pin, a weld or nothing?",
+                           shown_place(at)),
+               "a weld"});
         welds_.push_back({JointType::fixed, {}, body, ends.front(), node, 0});
       }
     }
@@ -510,6 +518,7 @@ class Reader {
   }
 
   double tolerance_;
+  std::optional<SketchEnd> ends_;
   Sketch out_;
   std::vector<Outline> bodies_;
   std::map<std::string, std::vector<Segment>> loose_;  ///< lines by their layer
@@ -538,9 +547,17 @@ int mobility(const Sketch& sketch) {
   return out - static_cast<int>(sketch.gears.size());
 }
 
-Sketch sketched_linkage(const std::vector<DrawnShape>& shapes, double tolerance) {
+std::optional<std::string> unknown_point(const Sketch& sketch, const SketchAnswers& answers) {
+  for (const auto* list : {&answers.ground, &answers.driven})
+    for (const std::string& name : *list)
+      if (!sketching::point_named(sketch, name)) return name;
+  return std::nullopt;
+}
+
+Sketch sketched_linkage(const std::vector<DrawnShape>& shapes, double tolerance,
+                        const SketchAnswers& answers) {
   LINKWRIGHT_REQUIRE(tolerance > 0 && std::isfinite(tolerance), "the tolerance is {} m", tolerance);
-  return Reader(shapes, tolerance).read();
+  return Reader(shapes, tolerance, answers.ends).read();
 }
 
 }  // namespace linkwright::planar

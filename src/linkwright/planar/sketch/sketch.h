@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
 #include "linkwright/planar/drawing/drawing.h"
 #include "linkwright/planar/linkage/linkage.h"
 
@@ -82,6 +83,23 @@ struct Sketch {
   std::vector<std::string> left_out;      ///< what was drawn but not understood, a sentence each
 };
 
+/// What an end on the middle of another line is, where no circle is drawn.
+enum class SketchEnd {
+  weld,    ///< it is welded to that line
+  pin,     ///< it turns about that place
+  nothing  ///< it only lies over it
+};
+constexpr std::array<EnumName<SketchEnd>, 3> names(SketchEnd) {
+  return {{{SketchEnd::weld, "weld"}, {SketchEnd::pin, "pin"}, {SketchEnd::nothing, "nothing"}}};
+}
+
+/// Answers to what a drawing leaves open; what is not answered is asked and assumed.
+struct SketchAnswers {
+  std::optional<SketchEnd> ends;    ///< ends on the middle of other lines
+  std::vector<std::string> ground;  ///< names of fixed points of a drawing without a ground
+  std::vector<std::string> driven;  ///< names of points whose joints have drives
+};
+
 /// The number of joints of a type.
 std::size_t count(const Sketch& sketch, JointType type);
 
@@ -98,10 +116,18 @@ inline constexpr std::size_t most_sketch_places = 2000;
 /// at both centres. The order of the shapes does not matter.
 /// @param shapes shapes of the drawing
 /// @param tolerance largest distance of ends that meet (m)
+/// @param answers answers to questions that arise while it is read
 /// @returns the linkage as it is drawn; without links, or with more than `most_sketch_places`, one without
 ///   bodies
 /// @throws ContractError if the tolerance is not positive
-Sketch sketched_linkage(const std::vector<DrawnShape>& shapes, double tolerance);
+Sketch sketched_linkage(const std::vector<DrawnShape>& shapes, double tolerance,
+                        const SketchAnswers& answers = {});
+
+/// The first point of the answers that a sketch does not have.
+/// @param sketch sketch as it was read
+/// @param answers answers with names of points
+/// @returns its name; nothing if there is none
+std::optional<std::string> unknown_point(const Sketch& sketch, const SketchAnswers& answers);
 
 /// True for the text of a file of the program Linkage (".linkage2").
 bool is_linkage_file(std::string_view text);
@@ -120,7 +146,10 @@ std::optional<Sketch> read_linkage_file(std::string_view text, const std::string
 /// ends, else the two lowest pins are fixed; without a drive the shortest bar at the ground is driven. Each
 /// is a question with its assumption. `sketch.drives` has a drive afterwards where any joint can be driven.
 /// @param sketch sketch with at least one body
-void complete(Sketch& sketch);
+/// @param answers names of points for which `unknown_point` finds nothing; those of the ground count where
+/// the
+///   sketch has none
+void complete(Sketch& sketch, const SketchAnswers& answers = {});
 
 /// The study of a linkage, in the words of a file: its bodies and joints as they are drawn, one drive over
 /// the range in which it assembles or a grid of several, questions as comments.

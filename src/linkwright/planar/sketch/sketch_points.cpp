@@ -8,7 +8,9 @@
 #include <complex>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -134,6 +136,12 @@ void Nodes::join(double tolerance, std::vector<SketchQuestion>& questions) {
 std::size_t Nodes::at(Place place) const {
   const auto found = std::lower_bound(raw_.begin(), raw_.end(), place, left_below);
   return group_of_raw_[static_cast<std::size_t>(found - raw_.begin())];
+}
+
+std::optional<std::size_t> point_named(const Sketch& sketch, std::string_view name) {
+  for (std::size_t point = 0; point < sketch.points.size(); ++point)
+    if (sketch.points[point].name == name) return point;
+  return std::nullopt;
 }
 
 void name_sketch(Sketch& sketch) {

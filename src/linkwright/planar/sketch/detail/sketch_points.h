@@ -3,7 +3,9 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/planar/drawing/drawing.h"
@@ -63,6 +65,9 @@ class Nodes {
   std::vector<Place> raw_, places_;
   std::vector<std::size_t> group_, group_of_raw_;
 };
+
+/// The point of a name; none if there is none.
+std::optional<std::size_t> point_named(const Sketch& sketch, std::string_view name);
 
 /// Names bodies by their points, joints after theirs and gears by their centres.
 void name_sketch(Sketch& sketch);
