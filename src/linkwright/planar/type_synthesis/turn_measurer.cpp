@@ -6,15 +6,32 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/type_synthesis/curve.h"
 
 namespace linkwright::planar {
+namespace {
+
+/// Distance of a point from the straight line between two others.
+double distance_from_side(std::complex<double> point, std::complex<double> from, std::complex<double> to) {
+  const std::complex<double> side = to - from, away = point - from;
+  const double square = std::norm(side);
+  const double part = square > 0 ? std::clamp((std::conj(side) * away).real() / square, 0.0, 1.0) : 0.0;
+  return std::abs(away - part * side);
+}
+
+}  // namespace
 
 TurnMeasurer::TurnMeasurer(const MotionTarget& target) : target_(target) {
   for (std::size_t k = 0; k < measured_angles; ++k)
     angle_[k] = 2 * pi * static_cast<double>(k) / measured_angles;
+  if (!target.dense) return;
+  for (const PolylinePlace& place :
+       equal_step_places(target.stroke.polyline, target.stroke.closed, stroke_samples))
+    side_of_sample_.push_back(place.side);
+  side_of_sample_.push_back(target.stroke.polyline.size() - 1);
 }
 
 double TurnMeasurer::least_quality(const FittedMachine& machine) const {
@@ -107,7 +124,21 @@ double TurnMeasurer::peak_acceleration_of_part(const FittedMachine& machine) con
   return step > 0 ? peak / (2 * step) : 0;
 }
 
-/// True if the curve stays near the stroke between the points, too.
+/// True if a point is as near as that to the stroke between a sample and the next one: to its own corners and
+/// bends there, which may be sharper than the straight side between the two samples.
+bool TurnMeasurer::is_near_stroke(std::complex<double> point, std::size_t sample, double allowed) const {
+  const std::vector<std::complex<double>>& drawn = target_.stroke.polyline;
+  const std::size_t next = (sample + 1) % stroke_samples;
+  std::complex<double> from{target_.x[sample], target_.y[sample]};
+  for (std::size_t i = side_of_sample_[sample]; i < side_of_sample_[sample + 1]; ++i) {
+    if (distance_from_side(point, from, drawn[i + 1]) <= allowed) return true;
+    from = drawn[i + 1];
+  }
+  return distance_from_side(point, from, {target_.x[next], target_.y[next]}) <= allowed;
+}
+
+/// True if the curve stays near the stroke between the points, too: near the straight side between two
+/// samples, or near the stroke itself where that leaves it.
 bool TurnMeasurer::stays_near(const FittedMachine& machine, double largest_deviation) {
   constexpr std::size_t between = 3 * stroke_samples;
   alignas(64) std::array<double, between> angle, bx, by;
@@ -131,10 +162,10 @@ bool TurnMeasurer::stays_near(const FittedMachine& machine, double largest_devia
   const double allowed = 3 * largest_deviation + 0.02;
   for (std::size_t k = 0; k < 3 * sides; ++k) {
     const std::size_t i = k / 3, j = (i + 1) % stroke_samples;
-    const double dx = target_.x[j] - target_.x[i], dy = target_.y[j] - target_.y[i];
-    const double vx = bx[k] - target_.x[i], vy = by[k] - target_.y[i], square = dx * dx + dy * dy;
-    const double part = square > 0 ? std::clamp((vx * dx + vy * dy) / square, 0.0, 1.0) : 0.0;
-    if (!(std::hypot(vx - part * dx, vy - part * dy) <= allowed)) return false;
+    const std::complex<double> at(bx[k], by[k]);
+    if (!(distance_from_side(at, {target_.x[i], target_.y[i]}, {target_.x[j], target_.y[j]}) <= allowed) &&
+        !is_near_stroke(at, i, allowed))
+      return false;
   }
   return true;
 }
