@@ -224,6 +224,64 @@ TEST(AnyPathStudies, TellWhoStaysWithinTheTolerance) {
   for (std::size_t i = 0; i < inside.size(); ++i) EXPECT_EQ(inside[i] == 1, largest[i] <= 0.003 * (1 + 1e-9));
 }
 
+TEST(AnyPathStudies, TellWhichBandsAreKept) {
+  const std::string points =
+                        "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [40, 5], [60, 30], [40, 50], "
+                        "[0, 40], [-10, "
+                        "20]]\nclosed = true\n",
+                    wide = "[[target.band]]\nfrom_point = 6\nto_point = 2\ntolerance_mm = 20\n",
+                    narrow = "[[target.band]]\nfrom_share = 0.5\nto_share = 0.7\ntolerance_mm = 1e-6\n";
+  const study::Result result =
+      test::run_text(any_path({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\"]\n"},
+                               {"2", points + wide + narrow},
+                               {"4", "[optimiser]\nevaluations = 20000\n"}}));
+  const Table *machines = result.table("machines"), *bands = result.table("bands");
+  ASSERT_TRUE(machines && bands);
+  ASSERT_EQ(bands->rows(), 2 * machines->rows());
+  const auto of = [&](const char* column) { return bands->find(column)->values; };
+  EXPECT_NEAR(of("tolerance_m")[0], 0.02, 1e-12);
+  EXPECT_GT(of("from_share")[0], of("to_share")[0]);
+  EXPECT_EQ(of("kept")[0], 1);
+  EXPECT_LE(of("largest_deviation_m")[0], 0.02 * (1 + 1e-9));
+  EXPECT_EQ(of("beyond_tolerance_m")[0], 0);
+  EXPECT_EQ(of("kept")[1], 0);
+  EXPECT_NEAR(of("beyond_tolerance_m")[1], of("largest_deviation_m")[1] - 1e-9, 1e-15);
+  EXPECT_GE(of("at_share")[1], 0.5 - 1e-9);
+  EXPECT_LE(of("at_share")[1], 0.7 + 1e-9);
+  EXPECT_EQ(machines->find("within_tolerance")->values[0], 0);
+  EXPECT_NEAR(machines->find("beyond_tolerance_m")->values[0], of("beyond_tolerance_m")[1], 1e-9);
+  EXPECT_THAT(test::fact(result, "band 1"), HasSubstr("kept"));
+  EXPECT_THAT(test::fact(result, "band 2"), HasSubstr("exceeded by"));
+}
+
+TEST(AnyPathStudies, CheckBandsAndWeights) {
+  const std::string points =
+      "[target]\ntype = \"path_points\"\npoints_mm = [[0, 0], [40, 5], [60, 30], [40, 50], [0, 40], [-10, "
+      "20]]\n";
+  const auto problems = [&](const std::string& more) {
+    return test::problems_of(any_path({{"2", points + more}}));
+  };
+  EXPECT_THAT(problems("[[target.band]]\nfrom_point = 7\ntolerance_mm = 1\n"),
+              HasSubstr("band 1 names point 7, the stroke has 6"));
+  EXPECT_THAT(problems("[[target.band]]\nfrom_point = 4\nto_point = 2\ntolerance_mm = 1\n"),
+              HasSubstr("band 1 ends before it begins"));
+  EXPECT_THAT(problems("[[target.band]]\nfrom_point = 1\nto_share = 0.5\ntolerance_mm = 1\n"),
+              HasSubstr("band 1 is given by points and by shares of the length"));
+  EXPECT_THAT(problems("[[target.band]]\nfrom_point = 1\n"), HasSubstr("tolerance"));
+  EXPECT_THAT(problems("weights = [1, 2, 3]\n"), HasSubstr("3 weights for 6 points"));
+  EXPECT_THAT(problems("weights = [0, 0, 0, 0, 0, 0]\n"), HasSubstr("all weights are 0"));
+  EXPECT_THAT(problems("weights = [1, 1, -1, 1, 1, 1]\n"), HasSubstr("weight 3 is -1"));
+  const auto warnings = [&](const std::string& more) {
+    std::string messages;
+    EXPECT_TRUE(test::prepare(any_path({{"2", points + more}}), messages));
+    return messages;
+  };
+  EXPECT_EQ(warnings("weights = []\nband = []\n"), "");
+  EXPECT_EQ(warnings("closed = true\nweights = [1, 1, 5, 1, 1, 1]\n[[target.band]]\nfrom_point = 4\n"
+                     "to_point = 2\ntolerance_mm = 1\n"),
+            "");
+}
+
 // A crank and a rod of nearly one length turn with no such pair angle.
 TEST(AnyPathStudies, NameTheLimitThatTheNearestMachineBreaks) {
   const study::Result result = test::run_text(

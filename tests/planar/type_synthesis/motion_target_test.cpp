@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
 #include <vector>
 
+#include "linkwright/core/check.h"
 #include "linkwright/planar/type_synthesis/search.h"
 #include "planar/type_synthesis_cases.h"
 
@@ -64,7 +66,7 @@ TEST(TimedStrokes, AreMetAtTheirTimes) {
 // A band as wide as the error of the best machines: all are as good, and the search keeps the kind ones.
 TEST(Tolerances, CostNothing) {
   MotionTarget target(sampled_stroke(test::stroke_of(test::stroke_case("leg"))));
-  target.tolerance = 0.05;
+  set_tolerances(target, 0.05, {});
   RunContext context;
   const auto answer =
       search_types(target, {.families = {MachineFamily::four_bar}, .max_curves = 60'000}, context);
@@ -73,6 +75,124 @@ TEST(Tolerances, CostNothing) {
   EXPECT_LT(best.error, 1e-12);
   EXPECT_LE(best.largest_deviation, 0.05 + 1e-12);
   EXPECT_GT(best.distance, 0);
+}
+
+TEST(ToleranceBands, HaveTheSamplesBetweenTheirEnds) {
+  const std::vector<std::complex<double>> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const MotionTarget closed(sampled_stroke({square, true})), open(sampled_stroke({square, false}));
+  // A sample is a 96th of a closed stroke and a 95th of an open one.
+  EXPECT_EQ(samples_of(closed, {.from = 0, .to = 1}).size(), stroke_samples);
+  EXPECT_EQ(samples_of(open, {.from = 0, .to = 1}).size(), stroke_samples);
+  EXPECT_EQ(samples_of(closed, {.from = 0.25, .to = 0.5}).size(), 25u);
+  const auto round_the_end = samples_of(closed, {.from = 0.75, .to = 0.25});
+  EXPECT_EQ(round_the_end.size(), 49u);
+  EXPECT_EQ(round_the_end.front(), 0u);
+  EXPECT_EQ(round_the_end.back(), 95u);
+  EXPECT_EQ(samples_of(closed, {.from = 0.501, .to = 0.502}), std::vector<std::size_t>{48});
+  EXPECT_EQ(samples_of(closed, {.from = 0.999, .to = 0.9995}), std::vector<std::size_t>{0});
+  EXPECT_EQ(samples_of(open, {.from = 1, .to = 1}), std::vector<std::size_t>{95});
+}
+
+TEST(ToleranceBands, TakeTheLeastWhereTheyOverlap) {
+  MotionTarget target(sampled_stroke({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, true}));
+  EXPECT_FALSE(target.has_tolerance());
+  const std::vector<ToleranceBand> bands{{.from = 0, .to = 0.5, .tolerance = 0.2},
+                                         {.from = 0.25, .to = 0.75, .tolerance = 0.1}};
+  set_tolerances(target, 0.01, bands);
+  EXPECT_EQ(target.tolerance[12], 0.2);
+  EXPECT_EQ(target.tolerance[30], 0.1);
+  EXPECT_EQ(target.tolerance[60], 0.1);
+  EXPECT_EQ(target.tolerance[90], 0.01);
+  EXPECT_TRUE(target.has_tolerance_everywhere());
+  set_tolerances(target, 0, bands);
+  EXPECT_TRUE(target.has_tolerance());
+  EXPECT_FALSE(target.has_tolerance_everywhere());
+}
+
+TEST(Weights, ChangeAlongTheStrokeAndOnlyTheirProportionsMatter) {
+  const Stroke stroke{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, false};
+  const MotionTarget plain(sampled_stroke(stroke));
+  MotionTarget same = plain, rising = plain, larger = plain;
+  weigh_points(same, stroke, std::vector<double>{7, 7, 7, 7});
+  EXPECT_EQ(same.weight, plain.weight);
+  weigh_points(rising, stroke, std::vector<double>{0, 1, 2, 3});
+  weigh_points(larger, stroke, std::vector<double>{0, 10, 20, 30});
+  double sum = 0;
+  for (std::size_t k = 0; k < stroke_samples; ++k) {
+    EXPECT_NEAR(rising.weight[k], 2.0 * static_cast<double>(k) / 95, 1e-12);
+    EXPECT_NEAR(rising.weight[k], larger.weight[k], 1e-12);
+    sum += rising.weight[k];
+  }
+  EXPECT_NEAR(sum, rising.total_weight, 1e-9);
+  EXPECT_THROW(weigh_points(rising, stroke, std::vector<double>{1, 2}), ContractError);
+}
+
+// A pose that counts a thousand times as much as the others is met.
+TEST(Weights, MakePosesMatter) {
+  const Stroke places{.points = {{0, 0}, {1, 0.4}, {2, 0}, {2.5, 1}, {2, 2}, {1, 1}, {0, 2}}};
+  const std::vector<double> angles{0, 0.9, -0.2, 1.3, 0.4, -0.7, 1.9};
+  const auto error_at = [&](double weight) {
+    MotionTarget target = pose_target(places, angles, 0.5);
+    std::vector<double> weights(7, 1.0);
+    weights[3] = weight;
+    weigh_points(target, places, weights);
+    RunContext context;
+    const auto answer =
+        search_types(target, {.families = {MachineFamily::four_bar}, .max_curves = 20'000}, context);
+    EXPECT_FALSE(answer.machines.empty());
+    FittedMachine best = answer.machines[0].machine;
+    MachineFitter alone(
+        [&] {
+          MotionTarget out = target;
+          for (std::size_t k = 0; k < out.count; ++k) out.weight[k] = k * 7 / out.count == 3 ? 1 : 0;
+          return out;
+        }(),
+        {});
+    return alone.measure(best).error;
+  };
+  EXPECT_LT(error_at(1000), 0.1 * error_at(1));
+}
+
+// Half of the derivatives of the squared error, with tolerances and weights that change along the stroke.
+TEST(ErrorModels, HaveTheGradientOfTheSquaredError) {
+  for (const bool timed : {false, true}) {
+    SCOPED_TRACE(timed ? "timed" : "free");
+    const Stroke leg = test::stroke_of(test::stroke_case("leg"));
+    std::vector<double> rotations, weights;
+    for (std::size_t k = 0; k < leg.points.size(); ++k) {
+      rotations.push_back(2 * pi * static_cast<double>(k) / static_cast<double>(leg.points.size()));
+      weights.push_back(0.2 + static_cast<double>(k % 7));
+    }
+    MotionTarget target = timed ? timed_stroke(leg, rotations) : MotionTarget(sampled_stroke(leg));
+    const std::vector<ToleranceBand> bands{{.from = 0.2, .to = 0.5, .tolerance = 0.02},
+                                           {.from = 0.6, .to = 0.1, .tolerance = 0.005}};
+    set_tolerances(target, 0, bands);
+    weigh_points(target, leg, weights);
+    RunContext context;
+    const auto answer =
+        search_types(target, {.families = {MachineFamily::watt_1}, .max_curves = 6'000}, context);
+    ASSERT_FALSE(answer.machines.empty());
+    FittedMachine machine = answer.machines[0].machine;
+    MachineFitter fitter(target, {});
+    // Away from the optimum, where all derivatives are zero.
+    for (double& x : machine.shape.x) x *= 1.001;
+    ASSERT_GT(fitter.measure(machine).error, 1e-4);
+    const ErrorModel model = fitter.error_model(machine, false);
+    double largest = 0;
+    for (const double g : model.gradient) largest = std::max(largest, std::abs(g));
+    for (std::size_t i = 0; i < model.unknowns; ++i) {
+      constexpr double step = 1e-6;
+      const auto squares = [&](double by) {
+        FittedMachine moved = machine;
+        std::vector<double> change(model.unknowns, 0.0);
+        change[i] = by;
+        fitter.move(moved, change);
+        const double error = fitter.measure(moved).error;
+        return error * error;
+      };
+      EXPECT_NEAR(model.gradient[i], (squares(step) - squares(-step)) / (4 * step), 1e-5 * largest) << i;
+    }
+  }
 }
 
 /// Places and angles of the traced bar of a machine, turned and stretched, with its angles counted from

@@ -34,9 +34,42 @@ void fields(Visitor&& visit, AnyMechanism& m) {
       m.most_links);
 }
 
+/// A part of a stroke with a tolerance of its own.
+struct AnyBandForm {
+  std::optional<int> from_point, to_point;
+  std::optional<double> from, to;
+  double tolerance = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AnyBandForm& b) {
+  visit(
+      field::entry("from_point", "number of the point at which the band begins, 1 for the first; default: 1")
+          .at_least(1),
+      b.from_point);
+  visit(
+      field::entry("to_point",
+                   "number of the point at which it ends; default: the last. A band of a closed stroke that "
+                   "ends before it begins continues past the first point")
+          .at_least(1),
+      b.to_point);
+  visit(field::entry("from_share",
+                     "instead of a point: share of the length of the stroke at which the band begins")
+            .between(0, 1),
+        b.from);
+  visit(field::entry("to_share", "share of the length at which it ends").between(0, 1), b.to);
+  visit(field::length("tolerance",
+                      "half the width of the band: distances of the curve from the stroke up to this one "
+                      "count as none")
+            .positive()
+            .required(),
+        b.tolerance);
+}
+
 struct AnyTarget : PathPointsForm {
   bool closed = false;
   std::optional<double> tolerance;
+  std::vector<AnyBandForm> bands;
+  std::optional<std::vector<double>> weights;
   PathTiming timing;
 };
 template <class Visitor>
@@ -47,6 +80,13 @@ void fields(Visitor&& visit, AnyTarget& t) {
   visit(field::length("tolerance", "distances of the curve from the points up to this one count as none")
             .positive(),
         t.tolerance);
+  visit(field::entry(
+            "band", "parts of the stroke with tolerances of their own; where they overlap, the least counts"),
+        t.bands);
+  visit(field::entry("weights",
+                     "how much the error at each point counts, one number a point; only their proportions "
+                     "matter; default: all the same"),
+        t.weights);
   visit(field::entry("timing",
                      "crank rotations from the first point to the others, in either sense; angles tell the "
                      "same by their differences"),
@@ -55,13 +95,16 @@ void fields(Visitor&& visit, AnyTarget& t) {
 }
 
 struct AnyPoseForm {
-  double x = 0, y = 0, angle = 0;
+  double x = 0, y = 0, angle = 0, weight = 1;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyPoseForm& p) {
   visit(field::length("x", "origin of the body, x").required(), p.x);
   visit(field::length("y", "origin of the body, y").required(), p.y);
   visit(field::angle("angle", "rotation of the body").required(), p.angle);
+  visit(field::entry("weight", "how much its error counts; only the proportions of the weights matter")
+            .not_negative(),
+        p.weight);
 }
 
 struct AnyPosesTarget {

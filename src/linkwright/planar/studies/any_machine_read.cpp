@@ -41,12 +41,15 @@ constexpr std::array not_of_strokes{
     Absent{"target.pose", {}, body_turns}, Absent{"target.orientation_length", {}, body_turns},
     Absent{"target.dwell", {}, of_functions}, Absent{"target.time_ratio", {}, of_functions}};
 constexpr std::array not_of_poses{
+    Absent{"target.band", {}, "not for poses: a weight at each [[target.pose]] says which of them matter"},
+    Absent{"target.weights", {}, "not for poses: write weight at each [[target.pose]]"},
     Absent{"target.points", {}, "not for poses: write [[target.pose]] with x_mm, y_mm, angle_deg for each"},
     Absent{"target.points_file", {}, "not for poses: their file is file = \"poses.csv\""},
     Absent{"target.tolerance",
            {},
            "not for poses: orientation_length says what a rotation error counts as beside the places"},
-    Absent{"target.dwell", {}, of_functions}, Absent{"target.time_ratio", {}, of_functions}};
+    Absent{"target.dwell", {}, of_functions},
+    Absent{"target.time_ratio", {}, of_functions}};
 constexpr std::array not_of_functions{
     Absent{"limits.crank_turns",
            {},
@@ -125,6 +128,78 @@ std::vector<double> read_rotations(study::ObjectReader& target, const study::Com
   return turned;
 }
 
+/// The share of its length at which a point of a stroke lies.
+double share_of_point(const Stroke& stroke, std::size_t point) {
+  const std::size_t n = stroke.points.size(), sides = stroke.closed ? n : n - 1;
+  double before = 0, whole = 0;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const double side = std::abs(stroke.points[(i + 1) % n] - stroke.points[i]);
+    whole += side;
+    if (i < point) before += side;
+  }
+  return before / whole;
+}
+
+/// The bands of a stroke; problems are reported at the first of them.
+std::vector<ToleranceBand> read_bands(study::ObjectReader& target, const AnyTarget& form,
+                                      const MotionTarget& motion, const Stroke& stroke) {
+  std::vector<ToleranceBand> out;
+  const auto last = static_cast<int>(stroke.points.size());
+  for (std::size_t i = 0; i < form.bands.size(); ++i) {
+    const AnyBandForm& b = form.bands[i];
+    const bool points = b.from_point || b.to_point;
+    if (points && (b.from || b.to)) {
+      target.error("band", fmt::format("band {} is given by points and by shares of the length", i + 1),
+                   "keep one of them");
+      return {};
+    }
+    if (const int most = std::max(b.from_point.value_or(1), b.to_point.value_or(1)); most > last) {
+      target.error("band", fmt::format("band {} names point {}, the stroke has {}", i + 1, most, last),
+                   "points are counted from 1");
+      return {};
+    }
+    ToleranceBand band{.from = b.from.value_or(0), .to = b.to.value_or(1)};
+    if (b.from_point) band.from = share_of_point(stroke, static_cast<std::size_t>(*b.from_point - 1));
+    if (b.to_point) band.to = share_of_point(stroke, static_cast<std::size_t>(*b.to_point - 1));
+    band.tolerance = b.tolerance / motion.stroke.size;
+    if (band.to < band.from && !stroke.closed) {
+      target.error("band", fmt::format("band {} ends before it begins", i + 1),
+                   "exchange its ends; only on a closed stroke a band continues past the first point");
+      return {};
+    }
+    out.push_back(band);
+  }
+  return out;
+}
+
+/// True where there are weights, which are not negative and not all zero.
+bool check_weights(study::ObjectReader& target, const char* key, const std::vector<double>& weights) {
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (!(weights[i] >= 0 && weights[i] <= 1e6)) {
+      target.error(key, fmt::format("weight {} is {}", i + 1, weights[i]), "write a number from 0 to 1e6");
+      return false;
+    }
+  if (std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0; })) return true;
+  if (!weights.empty()) target.error(key, "all weights are 0", "write 1 where errors are to count");
+  return false;
+}
+
+/// Weights of the points of a stroke, of which `given` were told: a closed one may have been given its first
+/// point again.
+void read_weights(study::ObjectReader& target, AnyTarget& form, std::size_t given, const Stroke& stroke,
+                  MotionTarget& motion) {
+  if (!form.weights) return;
+  std::vector<double>& weights = *form.weights;
+  const std::size_t n = stroke.points.size();
+  if (weights.size() == given) weights.resize(n);
+  if (!weights.empty() && weights.size() != n) {
+    target.error("weights", fmt::format("{} weights for {} points", weights.size(), n),
+                 "give one for each point");
+    return;
+  }
+  if (check_weights(target, "weights", weights)) weigh_points(motion, stroke, weights);
+}
+
 /// Reads the target of a stroke; `form` then says what it is in the end.
 void read_stroke_target(study::ObjectReader& target, const study::Common& common, AnyTarget& form,
                         AnyStudy& s) {
@@ -146,7 +221,9 @@ void read_stroke_target(study::ObjectReader& target, const study::Common& common
   if (!check_stroke(target, common, key, s.drawn)) return;
   const std::vector<double> rotations = read_rotations(target, common, form.timing, given, s.drawn);
   s.motion = rotations.empty() ? MotionTarget(sampled_stroke(s.drawn)) : timed_stroke(s.drawn, rotations);
-  if (form.tolerance) s.motion->tolerance = *form.tolerance / s.motion->stroke.size;
+  set_tolerances(*s.motion, form.tolerance.value_or(0) / s.motion->stroke.size,
+                 read_bands(target, form, *s.motion, s.drawn));
+  read_weights(target, form, given, s.drawn, *s.motion);
 }
 
 /// Reads the target of poses.
@@ -164,7 +241,7 @@ void read_poses_target(study::ObjectReader& target, const study::Common& common,
   }
   if (form.file)
     for (const PoseForm& pose : poses_of_file(target, common, *form.file))
-      form.poses.push_back({pose.x, pose.y, pose.angle.value_or(0)});
+      form.poses.push_back({.x = pose.x, .y = pose.y, .angle = pose.angle.value_or(0)});
   form.file.reset();
   const char* key = has_file ? "file" : "pose";
   if (form.poses.size() < 3 || form.poses.size() > stroke_samples) {
@@ -193,6 +270,9 @@ void read_poses_target(study::ObjectReader& target, const study::Common& common,
   const std::vector<double> rotations =
       read_rotations(target, common, form.timing, points.size(), s.drawn, "pose");
   s.motion = pose_target(s.drawn, s.angles, form.orientation_length, rotations);
+  std::vector<double> weights;
+  for (const AnyPoseForm& pose : form.poses) weights.push_back(pose.weight);
+  if (check_weights(target, key, weights)) weigh_points(*s.motion, s.drawn, weights);
 }
 
 /// The dwells of a function, within the rotation of the crank and one after the other.

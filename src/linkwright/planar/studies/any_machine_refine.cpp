@@ -358,9 +358,10 @@ void add_figure_facts(const AnyRefinementStudy& s, const ListFigures& figures, c
     return;
   }
   fact("error a machine may gain by the refinement",
-       target.tolerance > 0 ? say("{} of its own", percent(s.refinement.error_growth, 3))
-                            : say("{} of its own, at least {}", percent(s.refinement.error_growth, 3),
-                                  millimetres(s.refinement.error_share * target.stroke.size, 3)));
+       target.has_tolerance_everywhere()
+           ? say("{} of its own", percent(s.refinement.error_growth, 3))
+           : say("{} of its own, at least {}", percent(s.refinement.error_growth, 3),
+                 millimetres(s.refinement.error_share * target.stroke.size, 3)));
 }
 
 void add_figure_plots(const ListFigures& figures, std::string_view error_key, study::Result& result) {

@@ -82,6 +82,7 @@ class MotionReport final : public AnyReport {
       out.objectives["chamfer_distance_share"] = found.chamfer;
     }
     out.objectives["largest_deviation_m"] = m.largest_deviation * size();
+    if (motion_.has_tolerance()) out.objectives["beyond_tolerance_m"] = m.beyond_tolerance * size();
     out.objectives["peak_acceleration_share"] = m.peak_acceleration;
     out.classification["traced_point"] = of.traced;
     if (poses()) out.classification["body_angle_on_bar_rad"] = found.machine.body_angle;
@@ -227,11 +228,16 @@ class MotionReport final : public AnyReport {
     using M = const MachineMeasures&;
     table.add("path_error_rms_m", "root mean square error (m)",
               measures_of([&](M m) { return m.distance * size(); }));
-    if (motion_.tolerance > 0) {
+    if (motion_.has_tolerance()) {
       table.add("beyond_tolerance_rms_m", "root mean square of the distances beyond the tolerance (m)",
                 measures_of([&](M m) { return m.error * size(); }));
+      table.add("beyond_tolerance_m", "largest distance beyond a tolerance (m)",
+                measures_of([&](M m) { return m.beyond_tolerance * size(); }));
       table.add("within_tolerance", "all points within the tolerance: 1, else 0",
                 measures_of([&](M m) { return within_tolerance(m) ? 1.0 : 0.0; }));
+    } else if (!poses() && motion_.weight != motion_.share) {
+      table.add("weighted_error_rms_m", "root mean square error by the weights of the points (m)",
+                measures_of([&](M m) { return m.error * size(); }));
     }
     if (poses()) {
       table.add("pose_error_rms_m", "root mean square of distances and of rotations as lengths (m)",
@@ -280,7 +286,8 @@ class MotionReport final : public AnyReport {
     if (poses()) fact("root mean square error of the rotation", degrees_of(m.rotation, 3));
     if (poses()) fact("largest error of the rotation", degrees_of(m.largest_rotation, 3));
     fact("largest deviation", length(m.largest_deviation));
-    if (motion_.tolerance > 0) tolerance_fact(fact);
+    if (motion_.has_tolerance()) tolerance_fact(fact);
+    band_facts(fact);
     if (!poses()) fact("chamfer distance, of the size of the stroke", plain_number(best.chamfer, 3));
     if (rocks())
       drive_fact(best.machine, fact);
@@ -292,6 +299,7 @@ class MotionReport final : public AnyReport {
   void add_remarks(const study::AddFact& fact) override {
     if (auto layouts = layout_table(machines(), motion_)) result_.tables.push_back(std::move(*layouts));
     if (!poses()) stroke_facts(fact);
+    band_table();
     const study::AddWarning warn{result_.diagnostics};
     const MachineMeasures& m = machines()[0].measures;
     if (m.peak_acceleration > 100 && !poses())
@@ -315,9 +323,77 @@ class MotionReport final : public AnyReport {
         .number = range;
   }
 
-  /// The polish ends at the edge of the band, to rounding.
-  bool within_tolerance(const MachineMeasures& m) const {
-    return m.largest_deviation <= motion_.tolerance * (1 + 1e-9);
+  bool within_tolerance(const MachineMeasures& m) const { return m.beyond_tolerance == 0; }
+
+  /// How a machine keeps a band: the sample that is farthest beyond its tolerance, or nearest to it, and the
+  /// distance there (m).
+  struct BandFinding {
+    std::size_t sample = 0;
+    double distance = 0, beyond = 0;
+    bool kept() const { return beyond == 0; }
+  };
+  BandFinding finding_of(const FoundMachine& found, const ToleranceBand& band) const {
+    const Motion motion = motion_at(found, {found.machine.angle.begin(), found.machine.angle.end()});
+    BandFinding out;
+    for (const std::size_t k : samples_of(motion_, band)) {
+      const std::complex<double> wanted = target().centre + size() * std::complex(motion_.x[k], motion_.y[k]);
+      const double distance = std::abs(std::complex(motion.x[k], motion.y[k]) - wanted);
+      if (distance >= out.distance) out.sample = k, out.distance = distance;
+    }
+    const double tolerance = band.tolerance * size(), beyond = out.distance - tolerance;
+    if (beyond > 1e-9 * tolerance) out.beyond = beyond;
+    return out;
+  }
+  /// Share of the length of the stroke at which a sample lies.
+  double share_at(std::size_t sample) const {
+    return static_cast<double>(sample) /
+           static_cast<double>(target().closed ? stroke_samples : stroke_samples - 1);
+  }
+
+  /// Each band of each machine.
+  void band_table() {
+    if (motion_.bands.empty()) return;
+    Column machine, number, from, to, tolerance, distance, beyond, at, x, y, kept;
+    for (std::size_t i = 0; i < machines().size(); ++i)
+      for (std::size_t b = 0; b < motion_.bands.size(); ++b) {
+        const ToleranceBand& band = motion_.bands[b];
+        const BandFinding found = finding_of(machines()[i], band);
+        machine.push_back(static_cast<double>(i + 1)), number.push_back(static_cast<double>(b + 1));
+        from.push_back(band.from), to.push_back(band.to), tolerance.push_back(band.tolerance * size());
+        distance.push_back(found.distance), beyond.push_back(found.beyond);
+        at.push_back(share_at(found.sample));
+        x.push_back(target().centre.real() + size() * motion_.x[found.sample]);
+        y.push_back(target().centre.imag() + size() * motion_.y[found.sample]);
+        kept.push_back(found.kept() ? 1 : 0);
+      }
+    Table table{.name = "bands"};
+    table.add("machine", "number of the machine in the list", std::move(machine));
+    table.add("band", "number of the band", std::move(number));
+    table.add("from_share", "share of the length of the stroke at which it begins", std::move(from));
+    table.add("to_share", "share at which it ends", std::move(to));
+    table.add("tolerance_m", "tolerance (m)", std::move(tolerance));
+    table.add("largest_deviation_m", "largest deviation in the band (m)", std::move(distance));
+    table.add("beyond_tolerance_m", "largest distance beyond the tolerance (m)", std::move(beyond));
+    table.add("at_share", "share of the length at which the deviation is largest", std::move(at));
+    table.add("x_m", "x of the stroke there (m)", std::move(x));
+    table.add("y_m", "y of the stroke there (m)", std::move(y));
+    table.add("kept", "the band is kept: 1, else 0", std::move(kept));
+    result_.tables.push_back(std::move(table));
+  }
+
+  /// The bands of the best machine.
+  void band_facts(const study::AddFact& fact) const {
+    for (std::size_t b = 0; b < motion_.bands.size(); ++b) {
+      const BandFinding found = finding_of(machines()[0], motion_.bands[b]);
+      const std::string name =
+          motion_.bands.size() == 1 ? std::string("band") : fmt::format("band {}", b + 1);
+      const Measured where = percent(share_at(found.sample), 3), largest = millimetres(found.distance, 3);
+      fact(name,
+           found.kept() ? say("kept; largest deviation {}, at {} of the length", largest, where)
+                        : say("exceeded by {}, at {} of the length", millimetres(found.beyond, 3), where),
+           found.kept() ? study::Fact::Verdict::good : study::Fact::Verdict::bad)
+          .number = largest;
+    }
   }
 
   void tolerance_fact(const study::AddFact& fact) const {

@@ -382,8 +382,7 @@ bool MachineDescent::moved(const DescentAim& aim, double part, FoundMachine& fou
     if (!(greatest() < 2 * aim.max_greatest) || !lessen_greatest(aim, found.machine, context)) return false;
     found.measures = fitter_.measure(found.machine);
   }
-  return keeps_errors(aim, found) &&
-         (!aim.within_tolerance || found.measures.largest_deviation <= target_.tolerance * (1 + 1e-9));
+  return keeps_errors(aim, found) && (!aim.within_tolerance || found.measures.beyond_tolerance == 0);
 }
 
 bool MachineDescent::keeps_errors(const DescentAim& aim, const FoundMachine& found) const {

@@ -48,8 +48,16 @@ std::vector<std::complex<double>> smooth_path(const std::vector<std::complex<dou
 }  // namespace
 
 MotionTarget::MotionTarget(const SampledStroke& traced) : stroke(traced), x(traced.x), y(traced.y) {
-  weight.fill(1);
+  weight.fill(1), share.fill(1);
   for (std::size_t k = 0; k < stroke_samples; ++k) at[k] = static_cast<double>(k);
+}
+
+bool MotionTarget::has_tolerance() const {
+  return std::any_of(tolerance.begin(), tolerance.end(), [](double t) { return t > 0; });
+}
+
+bool MotionTarget::has_tolerance_everywhere() const {
+  return std::all_of(tolerance.begin(), tolerance.end(), [](double t) { return t > 0; });
 }
 
 void MotionTarget::cover_used_part(std::span<const double> sampled, std::span<double> out) const {
@@ -78,6 +86,54 @@ MotionTarget timed_stroke(const Stroke& stroke, std::span<const double> rotation
     out.turn[k] = turned[side] + part * (turned[std::min(side + 1, turned.size() - 1)] - turned[side]);
   }
   return out;
+}
+
+std::vector<std::size_t> samples_of(const MotionTarget& target, const ToleranceBand& band) {
+  const bool closed = target.stroke.closed;
+  const double steps = static_cast<double>(closed ? stroke_samples : stroke_samples - 1);
+  const double length = band.to - band.from + (band.to < band.from ? 1 : 0);
+  std::vector<std::size_t> out;
+  std::size_t nearest = 0;
+  double least = infinity;
+  for (std::size_t k = 0; k < stroke_samples; ++k) {
+    double ahead = static_cast<double>(k) / steps - band.from;
+    if (closed) ahead -= std::floor(ahead + 1e-9);
+    if (ahead >= -1e-9 && ahead <= length + 1e-9) out.push_back(k);
+    double apart = std::abs(ahead - 0.5 * length);
+    if (closed) apart = std::min(apart, 1 - apart);
+    if (apart < least) least = apart, nearest = k;
+  }
+  if (out.empty()) out.push_back(nearest);
+  return out;
+}
+
+void set_tolerances(MotionTarget& target, double everywhere, std::span<const ToleranceBand> bands) {
+  std::array<double, stroke_samples> own;
+  own.fill(infinity);
+  for (const ToleranceBand& band : bands)
+    for (const std::size_t k : samples_of(target, band)) own[k] = std::min(own[k], band.tolerance);
+  for (std::size_t k = 0; k < stroke_samples; ++k)
+    target.tolerance[k] = std::isfinite(own[k]) ? own[k] : everywhere;
+  target.bands.assign(bands.begin(), bands.end());
+}
+
+void weigh_points(MotionTarget& target, const Stroke& stroke, std::span<const double> weights) {
+  const std::size_t n = stroke.points.size();
+  LINKWRIGHT_REQUIRE(weights.size() == n, "{} weights for {} points", weights.size(), n);
+  if (std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights[0]; })) return;
+  if (target.oriented) {
+    for (std::size_t k = 0; k < target.count; ++k) target.weight[k] *= weights[k * n / target.count];
+  } else {
+    const auto places = equal_step_places(stroke.points, stroke.closed, stroke_samples);
+    for (std::size_t k = 0; k < stroke_samples; ++k) {
+      const auto [side, part] = places[k];
+      target.weight[k] *= (1 - part) * weights[side] + part * weights[(side + 1) % n];
+    }
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < target.count; ++k) sum += target.weight[k];
+  LINKWRIGHT_REQUIRE(sum > 0, "none of {} points has a weight", n);
+  for (double& w : target.weight) w *= target.total_weight / sum;
 }
 
 MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
@@ -112,6 +168,7 @@ MotionTarget pose_target(const Stroke& places, std::span<const double> angles,
     if (!rotations.empty()) out.turn[k] = std::abs(rotations[i] - rotations[0]);
   }
   out.total_weight = static_cast<double>(n);
+  out.share = out.weight;
   out.timed = !rotations.empty();
   return out;
 }

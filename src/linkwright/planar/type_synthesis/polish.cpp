@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -23,7 +24,11 @@ constexpr double margin =
     0.05 * pi / 180;  // the polish keeps this much more of the pair angle than it promises
 constexpr double nearly_kept = 4e-4, far_from_kept = 0.05;  // what a polish may miss of its limits
 constexpr double spare_where_met = 0.01;  // error after a stage that is small where many machines have none
-constexpr double open_rest = 0.02;        // an open stroke leaves this much of a turn (rad)
+// A sample within its tolerance has no error. It keeps this part of its derivative, so that a step does not
+// throw it out, and hardly keeps others from moving.
+constexpr double held_within_tolerance = 0.1;
+constexpr double rounding_of_tolerance = 1e-9;  // the polish ends at the edge of a tolerance
+constexpr double open_rest = 0.02;              // an open stroke leaves this much of a turn (rad)
 
 using Samples = std::array<double, samples>;
 
@@ -51,12 +56,14 @@ struct MachineFitter::Memory {
   Memory(const MotionTarget& wanted, const MachineLimits& kept)
       : target(wanted),
         limits(kept),
+        tolerant(target.has_tolerance()),
         dimensions(kept),
         turn(target),
         rows(column_length() * (max_machine_parameters + 3)) {}
 
   MotionTarget target;
   MachineLimits limits;
+  bool tolerant = false;  // some samples have a tolerance
   std::int64_t curves = 0;
   DimensionLimits dimensions;
   TurnMeasurer turn;
@@ -114,9 +121,9 @@ struct MachineFitter::Memory {
     double sum = 0;
     for (std::size_t k = 0; k < count(); ++k) {
       double ex = c.x[k] - target.x[k], ey = c.y[k] - target.y[k];
-      if (target.tolerance > 0) {
+      if (tolerant && target.tolerance[k] > 0) {
         const double distance = std::hypot(ex, ey);
-        const double beyond = distance > target.tolerance ? 1 - target.tolerance / distance : 0;
+        const double beyond = distance > target.tolerance[k] ? 1 - target.tolerance[k] / distance : 0;
         ex *= beyond, ey *= beyond;
       }
       c.ex[k] = ex, c.ey[k] = ey;
@@ -173,7 +180,8 @@ struct MachineFitter::Memory {
     Samples all;
     const std::span<double> forward(all.data(), count());
     for (std::size_t k = 0; k < count(); ++k) {
-      double along = c.tx[k] * c.ex[k] + c.ty[k] * c.ey[k];
+      // The closest point is that of the whole distance, whatever the tolerance leaves of it.
+      double along = c.tx[k] * (c.x[k] - target.x[k]) + c.ty[k] * (c.y[k] - target.y[k]);
       if (target.oriented) along += turning(c, k) * target.angle_length * c.ea[k];
       const double change = -along / (speed_squared(c, k) + 4e-4 * mean);
       forward[k] = sense * (c.angle[k] + std::clamp(change, -0.12, 0.12));
@@ -250,6 +258,11 @@ struct MachineFitter::Memory {
     return limit_rows.squares + pivot_rows.squares;
   }
 
+  double mean_tolerance() const {
+    if (!tolerant) return 0;
+    return std::accumulate(target.tolerance.begin(), target.tolerance.end(), 0.0) / samples;
+  }
+
   /// The scale of a machine whose output is an angle, where nothing else gives it.
   void scale_freely(std::span<double> x) const {
     if (!target.placed() && limits.ground_pivots.empty() && !limits.ground_box) dimensions.scale_freely(x);
@@ -285,7 +298,8 @@ struct MachineFitter::Memory {
       double ax = -now.ty[k], ay = now.tx[k], length = std::sqrt(speed);
       // Where the curve nearly stands it has no normal: the residual itself is what is left.
       if (speed < 1e-6 * mean) ax = ex, ay = ey, length = std::hypot(ex, ey);
-      const double by = length > 0 ? 1 / length : 0;
+      double by = length > 0 ? std::sqrt(target.weight[k]) / length : 0;
+      if (tolerant && target.tolerance[k] > 0 && ex == 0 && ey == 0) by *= held_within_tolerance;
       d.x[k] = ax * by, d.y[k] = ay * by;
     }
   }
@@ -317,7 +331,7 @@ struct MachineFitter::Memory {
   void find_axes() {
     for (std::size_t k = 0; k < count(); ++k) {
       const double root = std::sqrt(target.weight[k]);
-      const double of_place = target.tolerance > 0 && now.ex[k] == 0 && now.ey[k] == 0 ? 0 : root;
+      const double of_place = target.tolerance[k] > 0 && now.ex[k] == 0 && now.ey[k] == 0 ? 0 : root;
       directions[0].x[k] = directions[1].y[k] = of_place;
       directions[0].y[k] = directions[1].x[k] = directions[0].a[k] = directions[1].a[k] = 0;
       directions[2].x[k] = directions[2].y[k] = 0, directions[2].a[k] = root * target.angle_length;
@@ -495,7 +509,7 @@ bool MachineFitter::polish(FittedMachine& machine, double best) {
   Memory& m = *memory_;
   m.phase = 0;
   // Within the tolerance no machine is better than another by its error.
-  const double spare = m.target.met > 0 ? spare_where_met : 0.3 * m.target.tolerance;
+  const double spare = m.target.met > 0 ? spare_where_met : 0.3 * m.mean_tolerance();
   if (!(m.descend(machine, 1, 25) <= 1.6 * best + spare)) return false;
   if (!(m.descend(machine, 4, 40) <= 1.15 * best + spare)) return false;
   m.descend(machine, 30, 80);
@@ -531,10 +545,13 @@ void MachineFitter::Memory::meet_points(FittedMachine& machine, MachineMeasures&
     const double ex = of_points ? now.x[k] - target.x[k] : now.ex[k],
                  ey = of_points ? now.y[k] - target.y[k] : now.ey[k];
     out.largest_deviation = std::max(out.largest_deviation, std::hypot(ex, ey));
-    squares += target.weight[k] * (ex * ex + ey * ey);
+    squares += target.share[k] * (ex * ex + ey * ey);
+    if (const double t = target.tolerance[k]; t > 0)
+      if (const double beyond = std::hypot(ex, ey) - t; beyond > rounding_of_tolerance * t)
+        out.beyond_tolerance = std::max(out.beyond_tolerance, beyond);
     if (!target.oriented) continue;
     out.largest_rotation = std::max(out.largest_rotation, std::abs(now.ea[k]));
-    turned += target.weight[k] * now.ea[k] * now.ea[k];
+    turned += target.share[k] * now.ea[k] * now.ea[k];
   }
   out.distance = std::sqrt(squares / target.total_weight);
   out.rotation = std::sqrt(turned / target.total_weight);

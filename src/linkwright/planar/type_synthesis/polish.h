@@ -71,6 +71,8 @@ struct MachineMeasures {
   double error = infinity;  ///< root mean square of what is fitted: distances beyond the tolerance, rotations
   double distance = 0;      ///< root mean square distance of the points of the stroke
   double largest_deviation = 0;
+  /// Largest distance beyond a tolerance, of the samples that have one; 0 where all keep it, to rounding.
+  double beyond_tolerance = 0;
   double rotation = 0, largest_rotation = 0;  ///< errors of the angle of the body (rad)
   /// Over the whole turn, or over the used part where the crank need not turn (rad); 0 where the machine does
   /// not assemble.

@@ -61,6 +61,7 @@ MotionTarget quick_return_target(const QuickReturn& wanted) {
   }
   out.rests = {{2, 4}, {4, 6}};
   out.total_weight = 2;
+  out.share = out.weight;
   out.met = 1e-6;
   return out;
 }

@@ -103,7 +103,7 @@ class Refinement {
       out.at_most.push_back(objective.at_most);
     }
     const MachineMeasures& m = list_[machine].measures;
-    const double share = target_.tolerance > 0 ? negligible_error : options_.error_share;
+    const double share = target_.has_tolerance_everywhere() ? negligible_error : options_.error_share;
     const double error = limited_error(target_, options_, m);
     out.max_error = error + std::max(options_.error_growth * error, share);
     if (target_.is_function()) out.max_error = std::max(error, between_samples * out.max_error);
@@ -113,7 +113,7 @@ class Refinement {
       const double whole = options_.whole_error(list_[machine].machine);
       out.max_whole = whole + std::max(options_.error_growth * whole, share);
     }
-    out.within_tolerance = target_.tolerance > 0 && m.largest_deviation <= target_.tolerance * (1 + 1e-9);
+    out.within_tolerance = target_.has_tolerance() && m.beyond_tolerance == 0;
     return out;
   }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view what_state = "the saved search over types";
 constexpr std::int64_t most_counted = std::int64_t{1} << 56;
-constexpr std::size_t machine_numbers = 2 + 14 + stroke_samples;  // and the parameters
+constexpr std::size_t machine_numbers = 2 + 15 + stroke_samples;  // and the parameters
 
 Value saved_machine(const FoundMachine& found) {
   const FittedMachine& m = found.machine;
@@ -37,7 +37,8 @@ Value saved_machine(const FoundMachine& found) {
                               s.rotation,
                               s.largest_rotation,
                               m.body_angle,
-                              static_cast<double>(found.origin)};
+                              static_cast<double>(found.origin),
+                              s.beyond_tolerance};
   numbers.insert(numbers.end(), m.angle.begin(), m.angle.end());
   numbers.insert(numbers.end(), m.shape.x.begin(), m.shape.x.end());
   Value value;
@@ -63,10 +64,11 @@ FoundMachine load_machine(const Value& value, std::string_view what) {
   out.machine.error = n[2];
   out.machine.body_angle = n[14];
   out.origin = static_cast<std::int64_t>(n[15]);
-  std::copy_n(n.begin() + 16, stroke_samples, out.machine.angle.begin());
+  std::copy_n(n.begin() + 17, stroke_samples, out.machine.angle.begin());
   out.measures = {.error = n[2],
                   .distance = n[11],
                   .largest_deviation = n[3],
+                  .beyond_tolerance = n[16],
                   .rotation = n[12],
                   .largest_rotation = n[13],
                   .min_pair_angle = n[4],
