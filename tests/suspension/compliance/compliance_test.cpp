@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 
 #include "linkwright/suspension/compliance/statics.h"
 #include "linkwright/suspension/corner/suspension.h"
@@ -333,6 +335,51 @@ TEST(Compliance, RedundantCorner) {
 }
 
 // The other wheel: all that is a number is the same, all that is a vector its mirror image.
+// Five links with a bushing at each end at both wheels, 20 in all, over 11 travels and 5 racks: forces and
+// moments on the carrier and on each link add up to nothing under every load.
+TEST(Compliance, TwentyBushingsBalanceOverTravelAndRack) {
+  const Suspension left = corner_sample("5US").suspension;
+  const std::array loads{WheelLoad{{-1000, 0, 0}, {}}, WheelLoad{{0, 1500, 0}, {200, 0, 0}},
+                         WheelLoad{{300, -400, 5000}, {0, 50, -100}}};
+  for (const Suspension& suspension : {left, mirrored(left)}) {
+    const CornerPlan plan = prepare_suspension(suspension);
+    const CornerPosition reference = reference_position(plan);
+    CornerElasticity elasticity = rubber(suspension);
+    for (LinkElasticity& link : elasticity.links) link.carrier = {bushing(9e6, 2e7, 90, 2500)};
+    for (int i = 0; i < 11; ++i)
+      for (int k = 0; k < 5; ++k) {
+        const double travel = -0.05 + 0.01 * i, rack = -0.04 + 0.02 * k;
+        const CornerPosition at = solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference);
+        ASSERT_EQ(at.status, Status::done);
+        const Compliance found =
+            solve_compliance(suspension, at.place, rack, elasticity, Support::contact_held);
+        ASSERT_EQ(found.status, Status::done) << found.reason;
+        for (const WheelLoad& load : loads) {
+          const ElasticResponse by = respond(found, load);
+          ASSERT_EQ(by.joints.size(), 10U);
+          const Vec3 height{0, 0, by.height_force};
+          Vec3 force = load.force + height,
+               moment = load.moment + cross(found.contact - found.centre, height);
+          double size = norm(load.force);
+          for (const JointForce& joint : by.joints) {
+            size = std::max(size, norm(joint.force));
+            if (!joint.at_carrier) continue;
+            force += joint.force;
+            moment += joint.moment + cross(joint.point - found.centre, joint.force);
+          }
+          EXPECT_LT(norm(force), 1e-9 * size);
+          EXPECT_LT(norm(moment), 1e-9 * size);
+          for (std::size_t j = 0; j < by.joints.size(); j += 2) {
+            const JointForce &body = by.joints[j], &carrier = by.joints[j + 1];
+            EXPECT_LT(norm(body.force - carrier.force), 1e-9 * size);
+            EXPECT_LT(norm(body.moment - carrier.moment + cross(body.point - carrier.point, body.force)),
+                      1e-9 * size);
+          }
+        }
+      }
+  }
+}
+
 TEST(Compliance, MirroredWheel) {
   const Suspension& suspension = corner_sample("RS-SP-US").suspension;
   const Suspension other = mirrored(suspension);

@@ -95,16 +95,18 @@ TEST(WheelRate, LevelArmUnderAnUprightSpring) {
 // Lengths and angles by distances and Newton, rates by differences of fourth order, forces by energies.
 TEST(WheelRate, PushrodAndRocker) {
   struct Row {
-    double travel, rocker, spring, bar, ratio, rocker_ratio, force, wheel_force, rate;
+    double travel, rocker, spring, bar, ratio, rocker_ratio, force, wheel_force, rate, toe, camber;
   };
   constexpr std::array rows{
-      Row{-30, 16.02459413, 219.60986226, 4.05208776, -0.78000531, -0.55848785, 74.4583, 58.077905, 21.2968},
-      Row{-15, 7.86616291, 207.88074331, 2.18048543, -0.78527214, -0.53202107, 484.9775, 380.839326, 21.8725},
-      Row{0, 0, 196.02295784, 0, -0.79637970, -0.51851420, 900, 716.741727, 22.9575},
+      Row{-30, 16.02459413, 219.60986226, 4.05208776, -0.78000531, -0.55848785, 74.4583, 58.077905, 21.2968,
+          0.006066, 2.374566},
+      Row{-15, 7.86616291, 207.88074331, 2.18048543, -0.78527214, -0.53202107, 484.9775, 380.839326, 21.8725,
+          0.008008, 1.956621},
+      Row{0, 0, 196.02295784, 0, -0.79637970, -0.51851420, 900, 716.741727, 22.9575, 0, 1.5},
       Row{15, -7.73292094, 183.97910092, -2.48802876, -0.80955548, -0.51380856, 1321.5350, 1069.855897,
-          24.1001},
+          24.1001, -0.018851, 1.002955},
       Row{30, -15.44882070, 171.74143566, -5.29470877, -0.82168077, -0.51605199, 1749.8533, 1437.820795,
-          24.8499}};
+          24.8499, -0.049677, 0.463096}};
   constexpr double degrees = 180 / std::numbers::pi, digit8 = 5.1e-9, digit6 = 5.1e-7, digit4 = 5.1e-5;
   // The rates of the table were found by differences, to a unit of their last digit.
   constexpr double rate_digit = 1.5e-4;
@@ -128,6 +130,9 @@ TEST(WheelRate, PushrodAndRocker) {
       EXPECT_NEAR(wheel.spring_force, row.force, digit4);
       EXPECT_NEAR(wheel.wheel_force, row.wheel_force, digit6);
       EXPECT_NEAR(wheel.rate * 1e-3, row.rate, rate_digit);
+      const WheelParameters shown = wheel_parameters(plan.plan, position);
+      EXPECT_NEAR(shown.angles.toe * degrees, row.toe, digit6);
+      EXPECT_NEAR(shown.angles.camber * degrees, row.camber, digit6);
     }
   }
 }
