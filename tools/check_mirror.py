@@ -30,6 +30,7 @@ NO_TEST = {
     "suspension/corner/detail/list_columns.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
     "suspension/corner/detail/list_json.h": "part of hard_point_list, tested in hard_point_list_write_test.cpp",
     "suspension/corner/detail/list_lines.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
+    "suspension/corner/detail/list_names.h": "names of points, tested in corner_test.cpp with the studies that read them",
     "suspension/corner/detail/list_property.h": "part of hard_point_list, tested in hard_point_list_test.cpp",
     "suspension/corner/detail/points_kernel.h": "part of constraints, likewise",
     "suspension/corner/detail/rockers_kernel.h": "part of constraints, likewise",

@@ -53,6 +53,7 @@ TEST(DisplayUnits, ConvertTablesAndObjects) {
   table.add("rod_x_m", "rod x (m)", {0.5, -1, 0});
   table.add("force_N", "force (N)", {1, 2, 3});
   table.add("count", "count", {1, 2, 3});
+  table.add("travel_by_angle_m_per_rad", "travel by angle (m/rad)", {1, 2, 3});
   const Table shown = in_units(table, units);
   EXPECT_EQ(shown.columns[0].key, "crank_angle_deg");
   EXPECT_EQ(shown.columns[0].label, "crank angle (deg)");
@@ -61,6 +62,9 @@ TEST(DisplayUnits, ConvertTablesAndObjects) {
   EXPECT_EQ(shown.columns[1].key, "rod_x_mm");
   EXPECT_EQ(shown.columns[1].values[0], 500);
   EXPECT_EQ(shown.columns[2].key, "force_N");
+  // A unit that divides one stays: it is no angle that is shown.
+  EXPECT_EQ(shown.columns[4].key, "travel_by_angle_m_per_rad");
+  EXPECT_EQ(shown.columns[4].values[0], 1);
   EXPECT_EQ(shown.columns[3].key, "count");
   Value object;
   object["error_m2"] = 2e-6;

@@ -128,6 +128,8 @@ Measured DisplayUnits::measured(double si, Dimension dimension, int digits) cons
 DisplayUnits::Key DisplayUnits::key(std::string_view key) const {
   const auto parts = split_unit(key);
   if (!parts || !chosen(parts->dimension)) return {std::string(key)};
+  // A unit that divides one which belongs to no dimension: toe_deg_per_kN, camber_deg_per_100_N_m.
+  if (parts->base.ends_with("_per") || parts->base.ends_with("_per_100")) return {std::string(key)};
   const Unit& to = of(parts->dimension);
   if (parts->unit == &to) return {std::string(key)};
   return {fmt::format("{}_{}", parts->base, to.suffix), parts->unit, &to};

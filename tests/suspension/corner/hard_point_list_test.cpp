@@ -86,6 +86,36 @@ TEST(HardPointList, ReadsCsvAsSpreadsheetsWriteIt) {
               HasSubstr("points.txt:5:1: error: front: a coordinate is missing"));
 }
 
+TEST(HardPointList, ReadsColumnsOfBothSides) {
+  const std::vector<HardPoint> expected{{"chas_lowfor", {0.1005, 0.2, 0.15}},
+                                        {"rack", {0, 0, 0.1}},
+                                        {"chas_lowfor_right", {0.1005, -0.2, 0.151}}};
+  for (const char* text :
+       {"Double A-Arm;;;;;;\n;Left;;;Right;;\nPoint;X [mm];Y [mm];Z [mm];X [mm];Y [mm];Z [mm]\n"
+        "CHAS_LowFor;100,5;200;150;100,5;-200;151\nRack;0;0;100;;;\n",
+        "Name,Left X,Left Y,Left Z,Right X,Right Y,Right Z\nCHAS_LowFor,100.5,200,150,100.5,-200,151\n"
+        "Rack,0,0,100\n",
+        "sep=;\n\"Point\";\"Left (cm)\";;;\"Right (cm)\";;\n;X;Y;Z;X;Y;Z\nCHAS_LowFor;10,05;20;15;10,05;-20;"
+        "15,1\nRack;0;0;10;;;\n",
+        "Point\tx_l_mm\ty_l_mm\tz_l_mm\tx_r_mm\ty_r_mm\tz_r_mm\nCHAS_LowFor\t100,5\t200\t150\t100,5\t-200\t"
+        "151\nRack\t0\t0\t100\t\t\t\n"})
+    EXPECT_EQ(read(text), expected) << text;
+  // Under titles, with the headings repeated.
+  const auto sections = read(
+      "Front,,,,,,\n,Left,,,Right,,\nName,X,Y,Z,X,Y,Z\nlow,1,2,3,1,-2,3\nRear,,,,,,\n,Left,,,Right,,\n"
+      "Name,X,Y,Z,X,Y,Z\nlow,-1,2,3,-1,-2,3\n");
+  ASSERT_EQ(sections.size(), 4U);
+  EXPECT_EQ(sections[0], (HardPoint{"front_low", {0.001, 0.002, 0.003}}));
+  EXPECT_EQ(sections[3], (HardPoint{"rear_low_right", {-0.001, -0.002, 0.003}}));
+  // A title that names a side is not that of a group.
+  EXPECT_EQ(read("Left side;;;\nName;X;Y;Z\nb;1;2;3\n"),
+            (std::vector<HardPoint>{{"b", {0.001, 0.002, 0.003}}}));
+  EXPECT_THAT(problems_of(";Left;;;Right;;\nName;X;Y;Z;X;Y;Z\nlow;1;2;3;1;;3\n"),
+              HasSubstr("points.txt:3:1: error: low_right: a coordinate is missing"));
+  EXPECT_THAT(problems_of(";Left;;;Centre;;\nName;X;Y;Z;X;Y;Z\nlow;1;2;3;1;2;3\n"),
+              HasSubstr("it has 6 numbers in a row"));
+}
+
 TEST(HardPointList, ReadsBackWhatItsTableWrites) {
   const std::vector<HardPoint> points{{"lower_front", {0.1234567890123, -0.2, 0.3}}, {"b", {1e-9, 2, 3}}};
   EXPECT_EQ(read(to_csv(hard_point_table(points))), points);

@@ -118,6 +118,16 @@ TEST(HardPointListWrite, KeepsEverythingElseOfAList) {
             "[PARAMETER]\n 'camber' 'left/right' 'real' -1.0\n");
 }
 
+TEST(HardPointListWrite, WritesBothSidesWhereTheyStand) {
+  const std::string text = ";Left;;;Right;;\nPoint;X;Y;Z;X;Y;Z\nlow;100,5;200;150;100,5;-200;151\n";
+  const HardPointList list = read_whole(text);
+  EXPECT_EQ(list.points.at(1).label, "low right");
+  std::vector<Vec3> moved = places_in(list);
+  EXPECT_EQ(write_hard_points(list, moved), text);
+  moved[1].y = -0.2105;
+  EXPECT_EQ(write_hard_points(list, moved), test::replaced(text, "-200", "-210,5"));
+}
+
 TEST(HardPointListWrite, ReadsNumberedPointsAndHeadingsOverSeveralRows) {
   EXPECT_EQ(points_in(read_whole("Static values\n 1   10.5  20  30\n 12  40  50  60\n")),
             (std::vector<HardPoint>{{"1", {0.0105, 0.02, 0.03}}, {"12", {0.04, 0.05, 0.06}}}));

@@ -96,6 +96,72 @@ attached_to = "lower wishbone"
   std::filesystem::remove_all(folder);
 }
 
+// A list of another program with columns of both sides: names are proposed, edited once and then read.
+TEST(CornerStudy, ProposesNamesForAListOfAnotherProgram) {
+  const auto folder = std::filesystem::temp_directory_path() / "linkwright_point_names";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "car.csv")
+      << "Double A-Arm;;;;;;\n;Left;;;Right;;\nPoint;X [mm];Y [mm];Z [mm];X [mm];Y [mm];Z [mm]\n"
+         "CHAS_LowFor;150;220;120;150;-220;120\nCHAS_LowAft;-160;230;118;-160;-230;118\n"
+         "CHAS_UppFor;140;260;270;140;-260;270\nCHAS_UppAft;-150;265;262;-150;-265;262\n"
+         "UPRI_LowPnt;5;560;115;5;-560;115\nUPRI_UppPnt;-12;535;290;-12;-535;290\n"
+         "CHAS_TiePnt;60;225;160;60;-225;160\nUPRI_TiePnt;75;550;165;75;-550;165\nQuux;1;2;3;;;\n";
+  const auto study = [](const std::string& side, const std::string& right) {
+    return head + "side = \"" + side +
+           "\"\n[mechanism.hard_points]\nfile = \"car.csv\"\nnames = \"names.txt\"\n[mechanism.wheel]\n"
+           "centre_mm = [0, " +
+           (side == "left" ? "600" : "-600") +
+           ", 203]\ncamber_deg = 1.5\ntyre_diameter_mm = 406\n[[mechanism.link]]\nname = \"low\"\ntype = "
+           "\"RS\"\npoints = [\"lower front" +
+           right + "\", \"lower rear" + right + "\", \"lower outer" + right +
+           "\"]\n[[mechanism.link]]\nname = \"up\"\ntype = \"RS\"\npoints = [\"upper front" + right +
+           "\", \"upper rear" + right + "\", \"upper outer" + right +
+           "\"]\n[[mechanism.link]]\nname = \"tie rod\"\ntype = \"US\"\npoints = [\"tie rod inner" + right +
+           "\", \"steering arm end" + right + "\"]\nmoved_by = \"rack\"\n" + sweep;
+  };
+  const study::Result first = run_text(study("left", ""), folder);
+  EXPECT_EQ(first.status, Status::infeasible);
+  EXPECT_THAT(to_string(first.headline), HasSubstr("names.txt is not there"));
+  ASSERT_EQ(first.files.size(), 1U);
+  EXPECT_EQ(first.files[0].name, "names.txt");
+  const std::string& proposed = first.files[0].text;
+  for (const char* line :
+       {"lower front = CHAS_LowFor\n", "lower rear = CHAS_LowAft\n", "upper front = CHAS_UppFor\n",
+        "lower outer = UPRI_LowPnt\n", "upper outer = UPRI_UppPnt\n", "tie rod inner = CHAS_TiePnt\n",
+        "steering arm end =\n", "# UPRI_TiePnt\n", "# Quux\n"})
+    EXPECT_THAT(proposed, HasSubstr(line));
+  const auto save = [&](const std::string& text) { std::ofstream(folder / "names.txt") << text; };
+  save(proposed);
+  EXPECT_THAT(
+      problems_of(study("left", ""), folder),
+      HasSubstr("'steering arm end =' has not two names; write: name in the study = name in the list"));
+  const std::string names = replaced(proposed, "arm end =", "arm end = upri tiepnt");
+  save(names);
+  const study::Result left = run_text(study("left", ""), folder);
+  ASSERT_EQ(left.status, Status::done);
+  // The right one by the columns of its side.
+  std::filesystem::remove(folder / "names.txt");
+  const std::string right_names = run_text(study("right", " right"), folder).files.at(0).text;
+  EXPECT_THAT(right_names, HasSubstr("lower front right = CHAS_LowFor right\n"));
+  save(replaced(right_names, "arm end right =", "arm end right = UPRI_TiePnt right"));
+  const study::Result right = run_text(study("right", " right"), folder);
+  ASSERT_EQ(right.status, Status::done);
+  for (const char* key : {"toe_rad", "camber_rad", "roll_centre_height_m"})
+    EXPECT_EQ(column(left, key), column(right, key));
+  save(names + "upper front = nothing\nlower spring = CHAS_LowFort\n");
+  EXPECT_THAT(problems_of(study("left", ""), folder),
+              AllOf(HasSubstr("'upper front' is given twice"),
+                    HasSubstr("the list has no point 'CHAS_LowFort'; did you mean 'chas_lowfor'?")));
+  // Other kinds of studies do not propose.
+  std::filesystem::remove(folder / "names.txt");
+  EXPECT_THAT(problems_of(replaced(study("left", ""), "\"analysis\"", "\"synthesis\"") +
+                              "[target]\ntype = \"wheel_parameters\"\n",
+                          folder),
+              HasSubstr("mechanism.hard_points.names: cannot read"));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(CornerStudyRead, NamesWhatIsWrongWithTheMechanism) {
   const std::string good = sample("5US", sweep);
   EXPECT_THAT(problems_of(replaced(good, "5US", "5KX")),

@@ -13,6 +13,7 @@
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/trade_words.h"
+#include "linkwright/suspension/corner/detail/list_names.h"
 #include "linkwright/suspension/corner/plausibility.h"
 #include "linkwright/suspension/corner/structure.h"
 #include "linkwright/suspension/corner/suspension.h"
@@ -26,8 +27,8 @@ bool open(const PointForm& p) { return !(p.box.lower == p.box.upper); }
 /// Reads one mechanism; keeps what its parts have in common.
 class CornerReader {
  public:
-  CornerReader(study::ObjectReader& mechanism, const study::Common& common, OpenPoints open)
-      : mechanism_(mechanism), common_(common), open_(open) {}
+  CornerReader(study::ObjectReader& mechanism, const study::Common& common, OpenPoints open, bool may_propose)
+      : mechanism_(mechanism), common_(common), open_(open), may_propose_(may_propose) {}
 
   std::optional<CornerDescription> read() {
     mechanism_.read(form_);
@@ -49,8 +50,15 @@ class CornerReader {
     read_spring_parts(mechanism_, common_, form_, by_name, out_);
     rack();
     steering_linkage();
-    if (mechanism_.document().has_errors()) return std::nullopt;
+    if (mechanism_.document().has_errors() || proposing_) return std::nullopt;
     return std::move(out_);
+  }
+
+  /// The file of names that is not there yet; nothing if none is missing.
+  std::optional<study::ResultFile> proposed() const {
+    if (!proposing_ || mechanism_.document().has_errors()) return std::nullopt;
+    return study::ResultFile{std::filesystem::path(*form_.hard_points->names).filename().string(),
+                             lists::proposed_point_names(asked_, out_.list->list.points, out_.list->file)};
   }
 
  private:
@@ -105,6 +113,7 @@ class CornerReader {
       }
     out_.frame = h.frame;
     out_.unit = h.unit;
+    if (h.names) point_names(*table, *h.names);
     for (const auto& [name, at] : h.points) {
       const std::string plain = plain_name(name);
       if (find(plain))
@@ -114,13 +123,39 @@ class CornerReader {
     for (HardPoint& p : hard_) p.at = to_vehicle(h.frame, p.at);
   }
 
+  void point_names(study::ObjectReader& table, const std::string& file) {
+    if (!form_.hard_points->file)
+      return table.error("names", "there is no list whose points they name", "give file = \"points.csv\"");
+    if (!out_.list) return;
+    std::error_code failed;
+    if (may_propose_ && !std::filesystem::exists(common_.folder / file, failed)) {
+      proposing_ = true;
+      return;
+    }
+    const auto text = study::read_beside(table, "names", common_.folder, file);
+    if (!text) return;
+    Diagnostics problems;
+    if (auto names = lists::read_point_names(*text, file, out_.list->list.points, problems))
+      names_ = *std::move(names);
+    for (const Diagnostic& d : problems) table.unreadable("names", study::in_file(d));
+  }
+
   const HardPoint* find(std::string_view plain) const {
+    for (const auto& [study, list] : names_)
+      if (study == plain) plain = list;
     const auto at =
         std::find_if(hard_.begin(), hard_.end(), [&](const HardPoint& p) { return p.name == plain; });
     return at == hard_.end() ? nullptr : &*at;
   }
 
   std::optional<Vec3> named(study::ObjectReader& table, std::string_view key, const std::string& name) {
+    if (proposing_) {
+      // Places that differ stand for those that are not known yet.
+      const auto before = std::find(asked_.begin(), asked_.end(), name);
+      const double n = static_cast<double>(before - asked_.begin()) + 1;
+      if (before == asked_.end()) asked_.push_back(name);
+      return Vec3{0.01 * n, 0.01 * n * n, 0.001 * n * n * n};
+    }
     if (const HardPoint* p = find(plain_name(name))) return p->at;
     std::vector<std::string_view> known;
     for (const HardPoint& p : hard_) known.emplace_back(p.name);
@@ -312,8 +347,11 @@ class CornerReader {
   study::ObjectReader& mechanism_;
   const study::Common& common_;
   OpenPoints open_;
+  bool may_propose_, proposing_ = false;  ///< the file of names is not there yet
   CornerForm form_;
   std::vector<HardPoint> hard_;
+  lists::PointNames names_;
+  std::vector<std::string> asked_;  ///< names that the study uses, while the file is not there
   CornerDescription out_;
 };
 
@@ -354,10 +392,13 @@ bool anything_open(const CornerDescription& d) {
 }  // namespace
 
 std::optional<CornerDescription> read_suspension(study::ObjectReader& document, const study::Common& common,
-                                                 OpenPoints open) {
+                                                 OpenPoints open,
+                                                 std::optional<study::ResultFile>* proposed) {
   auto mechanism = document.table(field::entry("mechanism").required());
   if (!mechanism) return std::nullopt;
-  std::optional<CornerDescription> out = CornerReader(*mechanism, common, open).read();
+  CornerReader reader(*mechanism, common, open, proposed != nullptr);
+  std::optional<CornerDescription> out = reader.read();
+  if (proposed) *proposed = reader.proposed();
   if (!out) return std::nullopt;
   Diagnostics problems = implausible(out->suspension);
   const Diagnostics structure =

@@ -12,6 +12,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/study/result.h"
 #include "linkwright/suspension/compliance/damper_law.h"
 #include "linkwright/suspension/compliance/springs.h"
 #include "linkwright/suspension/corner/hard_point_list.h"
@@ -326,7 +327,7 @@ void fields(Visitor&& visit, StopForm& s) {
 
 /// Named points beside the mechanism, in their own frame.
 struct HardPointsForm {
-  std::optional<std::string> file;
+  std::optional<std::string> file, names;
   PointUnit unit = PointUnit::mm;
   PointFrame frame;
   std::vector<std::pair<std::string, std::array<double, 3>>> points;
@@ -334,6 +335,11 @@ struct HardPointsForm {
 template <class Visitor>
 void fields(Visitor&& visit, HardPointsForm& h) {
   visit(field::entry("file", "list of points: CSV with name,x_mm,y_mm,z_mm, or plain text"), h.file);
+  visit(field::entry(
+            "names",
+            "file with lines \"name in the study = name in the list\"; an analysis proposes one that is "
+            "not there yet"),
+        h.names);
   visit(field::entry("unit", "of a plain text list"), h.unit);
   visit(field::entry("x", "where the x axis of the points points to"), h.frame.x);
   visit(field::entry("y", "where their y axis points to"), h.frame.y);
@@ -477,8 +483,12 @@ struct CornerDescription {
 
 /// Reads it; nothing when there are problems, which go to the reader. A suspension without open points that
 /// cannot move as a wheel suspension must is refused.
+///
+/// @param proposed if given, it receives the file of names that the study calls for and that is not there
+/// yet; nothing is returned then, and what the mechanism is stays open
 std::optional<CornerDescription> read_suspension(study::ObjectReader& document, const study::Common& common,
-                                                 OpenPoints open);
+                                                 OpenPoints open,
+                                                 std::optional<study::ResultFile>* proposed = nullptr);
 /// The table as a canonical study holds it: coordinates in the vehicle's frame, no names of points, no files.
 Value write_suspension(const CornerDescription& description);
 /// The same of a suspension that was found for it, whose coordinates are all given.

@@ -11,7 +11,9 @@
 #include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/compliance.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/studies/data_sheet.h"
 #include "linkwright/suspension/studies/lists.h"
+#include "linkwright/suspension/studies/overlays.h"
 #include "linkwright/suspension/studies/packaging.h"
 #include "linkwright/suspension/studies/sensitivity.h"
 #include "linkwright/suspension/studies/springs.h"
@@ -57,6 +59,12 @@ void fields(Visitor&& visit, CornerSweep& s) {
   visit(field::entry("assemblies", "table of the other assembly modes of the suspension"), s.assemblies);
 }
 
+/// Another suspension whose curves are laid beside those of the study.
+struct OtherDesign {
+  std::string name;
+  CornerDescription description;
+};
+
 /// An analysis as read.
 struct SweepStudy {
   CornerDescription description;
@@ -67,6 +75,8 @@ struct SweepStudy {
   bool assemblies = false;                    ///< the other assembly modes are looked for
   bool drawn = true;                          ///< true if a scene is wanted: a grid may have many positions
   std::optional<CornerDescription> baseline;  ///< another suspension, whose curves are laid behind
+  std::vector<OtherDesign> others;            ///< suspensions to compare with, any number
+  std::vector<Measurement> measured;          ///< curves of a rig
   RideForm ride;
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
@@ -77,15 +87,17 @@ struct SweepStudy {
   std::optional<SensitivityForm> sensitivity;
   std::optional<TolerancesForm> tolerances;
   std::vector<ListForm> lists;
+  std::optional<DataSheetForm> data_sheet;
 };
 
 /// "analysis" of "suspension.corner".
 study::Kind sweep_kind();
 
 /// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,
-/// which go to the reader.
+/// which go to the reader, or when a file of names is proposed (read_suspension).
 std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
-                                           Value& canonical);
+                                           Value& canonical,
+                                           std::optional<study::ResultFile>* proposed = nullptr);
 
 /// Columns that are quantities of the study, whether its suspension has them or not, else all that it has.
 std::vector<const CornerColumn*> columns_of(const SweepStudy& study);
@@ -100,6 +112,11 @@ struct GridPositions {
 /// Interrupted: the racks so far; in the first of them the travels so far, about the one next to zero.
 GridPositions solve_grid(const CornerPlan& plan, Driver travel, std::span<const double> travels,
                          std::span<const double> racks, const RunContext* context = nullptr);
+
+/// The table `sweep` of a suspension at these travels and racks (m, ascending), with the columns of its
+/// springs.
+Table sweep_columns_at(const SweepStudy& study, std::vector<double> travels, std::vector<double> racks,
+                       const RunContext& context);
 
 /// The tables of an analysis of a suspension that was found for a description, over these values (m); with
 /// the rack centred alone where it does not reach all of their combinations.

@@ -22,23 +22,20 @@ namespace {
 
 constexpr std::size_t max_rows = 1000000;
 
-/// `[baseline]`, `[other_wheel]`: the mechanism of another study, or one beside this one.
-std::optional<CornerDescription> read_another(study::ObjectReader& document, const char* key,
+/// The mechanism of another study, or one in this table; `key` is that of the table.
+std::optional<CornerDescription> read_another(study::ObjectReader& table, std::string_view key,
                                               std::string_view what, const study::Common& common) {
-  auto table = document.table(key);
-  if (!table) return std::nullopt;
   std::string file;
-  const bool named = (*table)(field::entry("file"), file);
-  if (named == table->has("mechanism")) {
-    table->error(
-        "file", fmt::format("{} is {}", what, named ? "given twice" : "missing"),
-        fmt::format("write file = \"before.toml\", the study that holds it; or [{}.mechanism]", key));
+  const bool named = table(field::entry("file"), file);
+  if (named == table.has("mechanism")) {
+    table.error("file", fmt::format("{} is {}", what, named ? "given twice" : "missing"),
+                fmt::format("write file = \"before.toml\", the study that holds it; or [{}.mechanism]", key));
     return std::nullopt;
   }
   if (!named) {
     std::string type;
-    if (auto mechanism = table->table("mechanism")) (*mechanism)(field::entry("type"), type);
-    return read_suspension(*table, common, OpenPoints::none);
+    if (auto mechanism = table.table("mechanism")) (*mechanism)(field::entry("type"), type);
+    return read_suspension(table, common, OpenPoints::none);
   }
   Diagnostics problems;
   study::Common there = common;
@@ -50,11 +47,29 @@ std::optional<CornerDescription> read_another(study::ObjectReader& document, con
     study::DocumentReader reader(other, file, problems);
     study::ObjectReader root = reader.root();
     out = read_suspension(root, there, OpenPoints::none);
-    if (!out && !has_errors(problems))
-      table->error("file", fmt::format("'{}' has no wheel suspension", file));
+    if (!out && !has_errors(problems)) table.error("file", fmt::format("'{}' has no wheel suspension", file));
   }
   for (const Diagnostic& d : problems)
-    if (d.severity == Diagnostic::Severity::error) table->unreadable("file", study::in_file(d));
+    if (d.severity == Diagnostic::Severity::error) table.unreadable("file", study::in_file(d));
+  return out;
+}
+
+/// `[baseline]`, `[other_wheel]`.
+std::optional<CornerDescription> read_another(study::ObjectReader& document, const char* key,
+                                              std::string_view what, const study::Common& common) {
+  auto table = document.table(key);
+  return table ? read_another(*table, std::string_view(key), what, common) : std::nullopt;
+}
+
+/// `[[other_design]]`.
+std::vector<OtherDesign> read_other_designs(study::ObjectReader& document, const study::Common& common) {
+  std::vector<OtherDesign> out;
+  for (study::ObjectReader& table : document.tables("other_design")) {
+    std::string name;
+    table(field::entry("name").required(), name);
+    if (auto description = read_another(table, std::string_view("other_design"), "the other design", common))
+      out.push_back({name, *std::move(description)});
+  }
   return out;
 }
 
@@ -108,6 +123,19 @@ std::optional<CornerDescription> read_other_wheel(study::ObjectReader& document,
   return other;
 }
 
+/// The result of a study whose points have no names in the list yet.
+study::Result proposal(const study::ResultFile& names) {
+  study::Result result;
+  result.status = Status::infeasible;
+  result.headline = fmt::format(
+      "The suspension is not known yet: {} is not there. Check the names in the file {} of this result, save "
+      "it "
+      "beside the study and run it again.",
+      names.name, names.name);
+  result.files = {names};
+  return result;
+}
+
 std::vector<Word> quantity_words() {
   return {{"carrier", "place of the wheel centre"},
           {"toe", ""},
@@ -132,12 +160,12 @@ std::vector<Word> quantity_words() {
 }  // namespace
 
 std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
-                                           Value& canonical) {
+                                           Value& canonical, std::optional<study::ResultFile>* proposed) {
   SweepStudy s;
   s.quantities = common.output.quantities;
   s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(),
                         [](study::Format f) { return f != study::Format::json && f != study::Format::csv; });
-  const auto description = read_suspension(document, common, OpenPoints::none);
+  const auto description = read_suspension(document, common, OpenPoints::none, proposed);
   CornerSweep sweep;
   std::optional<std::vector<double>> travels, racks = std::vector{0.0};
   if (auto table = document.table(field::entry("sweep").required())) {
@@ -170,6 +198,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                                travels->size(), racks->size(), travels->size() * racks->size(), max_rows));
   }
   s.baseline = read_another(document, "baseline", "the baseline", common);
+  s.others = read_other_designs(document, common);
   s.other_wheel = read_other_wheel(document, common, description);
   const bool ride = document(field::entry("ride"), s.ride);
   document(field::entry("vehicle"), s.vehicle);
@@ -180,6 +209,15 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   document(field::entry("sensitivity"), s.sensitivity);
   document(field::entry("tolerances"), s.tolerances);
   s.lists = read_lists(document, description);
+  document(field::entry("data_sheet"), s.data_sheet);
+  if (s.data_sheet && s.data_sheet->title.empty()) s.data_sheet->title = common.title;
+  if (description && travels && racks) {
+    SweepStudy measurable = s;
+    measurable.description = *description;
+    measurable.quantities.clear();
+    measurable.travel = measurable.lock = Driver::wheel_centre_z;  // a spring may be missing
+    s.measured = read_measured(document, common, sweep_columns_at(measurable, {}, {}, RunContext()));
+  }
   if (description && ride) check_ride(document, s.ride, *description);
   if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->suspension);
   if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->suspension);
@@ -197,6 +235,14 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
       CornerSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
                   s.lock, s.assemblies});
   if (s.baseline) canonical["baseline"]["mechanism"] = write_suspension(*s.baseline);
+  for (const OtherDesign& other : s.others) {
+    Value table;
+    table["name"] = other.name;
+    table["mechanism"] = write_suspension(other.description);
+    if (!canonical.find("other_design")) canonical["other_design"] = Value::array();
+    canonical["other_design"].push_back(std::move(table));
+  }
+  if (!s.measured.empty()) canonical["measured"] = write_measured(s.measured);
   if (s.other_wheel) canonical["other_wheel"]["mechanism"] = write_suspension(*s.other_wheel);
   if (ride) canonical["ride"] = study::write_fields(s.ride);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
@@ -206,6 +252,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
   if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
   if (!s.lists.empty()) canonical["list"] = write_lists(s.lists);
+  if (s.data_sheet) canonical["data_sheet"] = study::write_fields(*s.data_sheet);
   if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
   return s;
 }
@@ -257,6 +304,13 @@ study::Kind sweep_kind() {
     };
     another("baseline", "another wheel suspension to compare with");
     another("other_wheel", "the other wheel of the axle; default: the mirror image of this one");
+    study::SchemaWriter other;
+    other.property(field::entry("name", "of the design, for diagrams").required(), Value());
+    other.property(field::entry("file", "study whose mechanism it is"), Value());
+    other.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
+    document.property(field::entry("other_design", "wheel suspensions whose curves are laid beside these"),
+                      study::schema_array(std::move(other).finish()));
+    describe_measured(document);
     document.property(field::entry("ride", "what the corner carries: natural frequency, damping ratio"),
                       study::schema_fields<RideForm>());
     document.property(field::entry("vehicle", "what the axle is part of: anti-dive, Ackermann"),
@@ -274,12 +328,18 @@ study::Kind sweep_kind() {
     document.property(field::entry("tolerances", "bands of curves when points have tolerances"),
                       study::schema_fields<TolerancesForm>());
     describe_lists(document);
+    document.property(field::entry("data_sheet", "all tables as a text with columns, data-sheet.txt"),
+                      study::schema_fields<DataSheetForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_sweep_study(document, common, prepared.canonical)) {
+    std::optional<study::ResultFile> names;
+    if (auto s = read_sweep_study(document, common, prepared.canonical, &names)) {
       prepared.tables = {empty_sweep_table(*s)};
       prepared.run = [s = *std::move(s)](RunContext& context) { return run_sweep_study(s, context); };
+    } else if (names) {
+      prepared.canonical["mechanism"] = Value::object();
+      prepared.run = [names = *std::move(names)](RunContext&) { return proposal(names); };
     }
     return prepared;
   };

@@ -229,6 +229,59 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
   }
 }
 
+/// Curves of other designs and of measurements beside those of the suspension.
+void add_beside(study::Result& result, const SweepStudy& s, const RunContext& context) {
+  if (s.others.empty() && s.measured.empty()) return;
+  const double rack = s.racks[next_to_zero(s.racks)];
+  std::vector<OverlaidTable> tables{{"this design", sweep_columns_at(s, s.travels, {rack}, context)}};
+  std::vector<std::string> quantities;
+  const auto add_quantity = [&](const std::string& key) {
+    if (std::find(quantities.begin(), quantities.end(), key) == quantities.end()) quantities.push_back(key);
+  };
+  if (!s.others.empty())
+    for (const char* key :
+         {"toe_rad", "camber_rad", "half_track_change_m", "wheelbase_change_m", "roll_centre_height_m",
+          "caster_rad", "kingpin_inclination_rad", "trail_m", "scrub_radius_m", "motion_ratio",
+          "wheel_rate_N_per_m", "total_wheel_rate_N_per_m"})
+      add_quantity(key);
+  for (const OtherDesign& other : s.others) {
+    SweepStudy of = s;
+    of.description = other.description;
+    if (!of.description.suspension.spring) {
+      of.lock = Driver::wheel_centre_z;
+      if (s.travel == Driver::spring) {
+        study::AddWarning{result.diagnostics}("other_design",
+                                              fmt::format("'{}' has no spring to travel by", other.name), {});
+        continue;
+      }
+    }
+    tables.push_back({other.name, sweep_columns_at(of, s.travels, {rack}, context)});
+  }
+  SweepStudy whole = s;
+  whole.quantities.clear();  // whatever was measured
+  for (std::size_t i = 0; i < s.measured.size(); ++i) {
+    const Measurement& m = s.measured[i];
+    // A rig goes up and down: each travel is solved once.
+    std::vector<double> travels = m.travels;
+    std::sort(travels.begin(), travels.end());
+    travels.erase(std::unique(travels.begin(), travels.end()), travels.end());
+    const Table solved = sweep_columns_at(whole, travels, {m.rack}, context);
+    Table computed{.name = solved.name};
+    for (const Column& c : solved.columns) {
+      std::vector<double> values;
+      for (const double travel : m.travels)
+        values.push_back(c.values[static_cast<std::size_t>(
+            std::lower_bound(travels.begin(), travels.end(), travel) - travels.begin())]);
+      computed.add(c.key, c.label, std::move(values));
+    }
+    Table absolute =
+        add_measured(result, m, computed, sweep_columns_at(whole, {0}, {m.rack}, context), i + 1);
+    for (const MeasuredCurve& curve : m.curves) add_quantity(curve.key);
+    tables.push_back({m.name, std::move(absolute)});
+  }
+  add_overlaid(result, tables, quantities);
+}
+
 Measured angle(double value) { return degrees_of(value).fixed(3); }
 Measured angle_by_travel(double value) { return measured("deg_per_m", value).fixed(3); }
 Measured length(double value) { return millimetres(value).fixed(2); }
@@ -388,6 +441,21 @@ GridPositions solve_grid(const CornerPlan& plan, Driver travel, std::span<const 
   return out;
 }
 
+Table sweep_columns_at(const SweepStudy& study, std::vector<double> travels, std::vector<double> racks,
+                       const RunContext& context) {
+  SweepStudy at = study;
+  at.travels = std::move(travels);
+  at.racks = std::move(racks);
+  Grid grid{at, solve_grid(prepare_suspension(at.description.suspension), at.travel, at.travels, at.racks),
+            0};
+  grid.racks = at.racks.size();
+  study::Result result;
+  result.tables.push_back(sweep_table(grid, "sweep"));
+  if (has_springs(at.description))
+    add_springs(result, at.description, at.ride, grid.solved.positions, {}, false, context);
+  return std::move(result.tables[0]);
+}
+
 Table empty_sweep_table(const SweepStudy& study) { return sweep_table(Grid{study, {}}, "sweep"); }
 
 study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
@@ -424,6 +492,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     result.tables.push_back(std::move(bump));
   add_plots(result, s);
   if (s.baseline) add_baseline(result, s, context);
+  add_beside(result, s, context);
   add_facts(result, s, grid, centred);
   tell_missing(result, s);
   if (s.vehicle) {
@@ -448,6 +517,14 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
         result, s.description, s.other_wheel, *s.compliance,
         {s.travels, std::span(s.racks).first(grid.racks), grid.solved.positions, grid.solved.wheels},
         context);
+  if (s.data_sheet) {
+    const std::size_t rack = next_to_zero(s.racks);
+    const std::string& title = s.data_sheet->title;
+    if (rack < grid.racks)
+      result.files.push_back(
+          {"data-sheet.txt", data_sheet(result, title.empty() ? "Wheel suspension" : title, s.racks[rack],
+                                        rack * s.travels.size() + next_to_zero(s.travels))});
+  }
   if (s.drawn) result.scenes.push_back(scene_of(s, grid));
 
   const study::AddWarning warn{result.diagnostics};

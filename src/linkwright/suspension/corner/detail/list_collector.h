@@ -43,6 +43,9 @@ class ListCollector {
   /// The points; nothing if there is a problem. Those of a text without any are a problem.
   std::optional<std::vector<ListedPoint>> finish();
 
+  /// A problem that was reported elsewhere.
+  void fail() { ++problems_; }
+
   bool failed() const { return problems_ > 0; }
   bool empty() const { return points_.empty(); }
 
