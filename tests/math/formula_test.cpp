@@ -112,6 +112,75 @@ TEST(Formulas, AreBounded) {
   EXPECT_EQ(value(nested, {0, 0, 0, 0}, Dimension::none), 1);
 }
 
+TEST(Formulas, HaveTables) {
+  const std::string text = "table(s, 0 mm, -10 N, 20 mm, 30 N, 40 mm, 0)";
+  EXPECT_EQ(value(text, {0, -1, 0, 0}), -10);
+  EXPECT_NEAR(value(text, {0, 0.005, 0, 0}), 0, 1e-14);
+  EXPECT_NEAR(value(text, {0, 0.030, 0, 0}), 15, 1e-13);
+  EXPECT_EQ(value(text, {0, 1, 0, 0}), 0);
+  EXPECT_TRUE(std::isnan(value(text, {0, nan, 0, 0})));
+  EXPECT_EQ(problem("table(s, 0 mm, 1 N)"),
+            "column 1: a table has two rows at least: table(argument, 0 mm, 10 N, 20 mm, 30 N)");
+  EXPECT_EQ(problem("table(s, 1 mm, 1 N, 1 mm, 2 N)"), "column 21: the arguments of a table rise");
+  EXPECT_EQ(problem("table(s, 0 s, 1 N, 1 s, 2 N)"), "column 10: a time does not go with a length");
+  EXPECT_EQ(problem("table(s, 0 mm, 1 N, 1 mm, 2 mm)"), "column 27: a length does not go with a force");
+  EXPECT_EQ(problem("table(s, 0 mm, 1 N, 1 mm)"), "column 25: a row of a table has an argument and a value");
+  EXPECT_EQ(problem("table(s, 0 mm, v, 1 mm, 2 N)"), "column 16: a table has numbers behind its argument");
+}
+
+// Signs of the numbers of kinks differ on both sides of each, and nowhere else.
+TEST(Formulas, KnowWhereTheyJumpOrBend) {
+  const auto kinks = [](std::string_view text, double v) {
+    const Formula f = formula(text, Dimension::none);
+    std::vector<double> out(f.kinks());
+    f.find_kinks(std::vector<double>{0, 0, v, 0}, out);
+    return out;
+  };
+  struct Case {
+    const char* text;
+    std::vector<double> at;
+  };
+  for (const Case& c : {Case{"abs(v / (1 m/s) - 2)", {2}}, Case{"sign(v / (1 m/s) + 1)", {-1}},
+                        Case{"max(v / (1 m/s), 2 - v / (1 m/s))", {1}}, Case{"if(v > 3 m/s, 1, 2)", {3}},
+                        Case{"floor(v / (1 m/s))", {0, 1, 2}}, Case{"mod(v / (1 m/s), 2)", {0, 2, 4}},
+                        Case{"table(v, -1 m/s, 0, 1 m/s, 3, 2 m/s, 5)", {-1, 1, 2}}}) {
+    for (const double place : c.at) {
+      const std::vector<double> before = kinks(c.text, place - 1e-3), after = kinks(c.text, place + 1e-3),
+                                later = kinks(c.text, place + 2e-3);
+      ASSERT_EQ(before.size(), 1u) << c.text;
+      EXPECT_LT(before[0] * after[0], 0) << c.text << " at " << place;
+      EXPECT_GT(later[0] * after[0], 0) << c.text << " at " << place;
+    }
+  }
+  EXPECT_EQ(kinks("sin(v / (1 m/s)) + 2", 0).size(), 0u);
+}
+
+TEST(Formulas, LookUpNamesInQuotes) {
+  FormulaLookup lookup{.functions = {"q", "rate"}};
+  lookup.find = [](std::string_view function, std::string_view name,
+                   std::string& problem) -> std::optional<FormulaLookup::Found> {
+    if (name == "O") return FormulaLookup::Found{4, function == "q" ? Dimension::length : Dimension::speed};
+    problem = "there is no joint";
+    return std::nullopt;
+  };
+  FormulaError error;
+  const auto f =
+      Formula::read("2 N/m * q(\"O\") + 1 N*s/m * rate( 'O' )", Dimension::force, strut_names, error, lookup);
+  ASSERT_TRUE(f) << error.message;
+  EXPECT_EQ((*f)(std::vector<double>{0, 0, 0, 0, 7}), 21);
+  const auto wrong = [&](std::string_view text) {
+    EXPECT_FALSE(Formula::read(text, Dimension::force, strut_names, error, lookup)) << text;
+    return "column " + std::to_string(error.column) + ": " + error.message;
+  };
+  EXPECT_EQ(wrong("1 N/m * q(\"P\")"), "column 11: there is no joint");
+  EXPECT_EQ(wrong("1 N/m * q(O)"), "column 11: q takes a name in quotes");
+  EXPECT_EQ(wrong("1 N/m * q('O)"), "column 11: the name has no closing quote");
+  EXPECT_EQ(wrong("1 N/m * rate('O')"), "column 1: is a quantity in m kg s^-3, and must be a force");
+  EXPECT_EQ(
+      wrong("F"),
+      "column 1: nothing is called 'F' here; there are time, s, v, a, q(\"...\"), rate(\"...\") and pi");
+}
+
 TEST(Formulas, KnowTheirNamesAndText) {
   const Formula f = formula("2 N + 1 N/m * s");
   EXPECT_TRUE(f.uses(1));

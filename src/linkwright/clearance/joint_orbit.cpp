@@ -75,11 +75,11 @@ DrivePeriod drive_period(std::span<const planar::InputDrive> drives, const std::
 
 std::string load_against_time(const planar::Linkage& linkage) {
   for (const planar::PointForce& f : linkage.forces)
-    if (f.factor.against == planar::LoadArgument::time) return f.name;
+    if (goes_by(f, planar::LoadArgument::time)) return f.name;
   for (const planar::BodyTorque& m : linkage.torques)
-    if (m.factor.against == planar::LoadArgument::time) return m.name;
+    if (goes_by(m, planar::LoadArgument::time)) return m.name;
   for (const planar::Strut& s : linkage.struts)
-    if (s.factor.against == planar::LoadArgument::time) return s.name;
+    if (goes_by(s, planar::LoadArgument::time)) return s.name;
   return {};
 }
 

@@ -109,8 +109,9 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 // Reads by recursive descent; the steps are written in the order in which a stack takes them.
 class FormulaReader {
  public:
-  FormulaReader(std::string_view text, std::span<const FormulaName> names, Formula& out, FormulaError& error)
-      : text_(text), names_(names), out_(out), error_(error) {}
+  FormulaReader(std::string_view text, std::span<const FormulaName> names, const FormulaLookup& lookup,
+                Formula& out, FormulaError& error)
+      : text_(text), names_(names), lookup_(lookup), out_(out), error_(error) {}
 
   bool read(Dimension result) {
     if (text_.size() > Formula::max_length)
@@ -390,7 +391,9 @@ class FormulaReader {
         return Kind{powers_of(names_[i].dimension)};
       }
     std::string all;
-    for (const FormulaName& known : names_) all += fmt::format("{}{}", all.empty() ? "" : ", ", known.name);
+    for (const FormulaName& known : names_) all += fmt::format("{}, ", known.name);
+    for (const std::string_view known : lookup_.functions) all += fmt::format("{}(\"...\"), ", known);
+    if (all.size() > 2) all.resize(all.size() - 2);
     return none(column, fmt::format("nothing is called '{}' here; there are {} and pi", name, all));
   }
   Found with_unit(double value) {
@@ -432,11 +435,15 @@ class FormulaReader {
   Found call(std::string_view name, std::size_t column) {
     ++at_;  // the bracket
     if (name == "if") return choice();
+    if (name == "table") return table(column);
+    if (std::find(lookup_.functions.begin(), lookup_.functions.end(), name) != lookup_.functions.end())
+      return looked_up(name);
     const auto found = std::find_if(functions().begin(), functions().end(),
                                     [&](const Function& f) { return f.name == name; });
     if (found == functions().end()) {
-      std::vector<std::string_view> known{"if"};
+      std::vector<std::string_view> known{"if", "table"};
       for (const Function& f : functions()) known.push_back(f.name);
+      known.insert(known.end(), lookup_.functions.begin(), lookup_.functions.end());
       const std::string_view near = nearest_word(name, known);
       return none(column, fmt::format("there is no function '{}'{}", name,
                                       near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
@@ -479,6 +486,69 @@ class FormulaReader {
     if (found->takes != Takes::same && found->takes != Takes::root) all.powers = {};
     return Kind{all.powers};
   }
+  // A quantity by a name in quotes.
+  Found looked_up(std::string_view function) {
+    const std::size_t column = next_column();
+    const char quote = at_ < text_.size() ? text_[at_] : ' ';
+    if (quote != '"' && quote != '\'')
+      return none(column, fmt::format("{} takes a name in quotes", function));
+    const std::size_t end = text_.find(quote, at_ + 1);
+    if (end == std::string_view::npos) return none(column, "the name has no closing quote");
+    const std::string_view name = text_.substr(at_ + 1, end - at_ - 1);
+    at_ = end + 1;
+    std::string problem;
+    const auto found = lookup_.find(function, name, problem);
+    if (!found) return none(column, std::move(problem));
+    if (!take(")")) return none(next_column(), "')' is missing");
+    step(Code::name, 0, found->index);
+    return Kind{powers_of(found->dimension)};
+  }
+  // A number of a table, with its sign and unit.
+  Found constant(double& value) {
+    const std::size_t column = next_column(), before = out_.steps_.size();
+    const bool minus = take("-");
+    skip();
+    if (!number(value)) return none(column, "a table has numbers behind its argument");
+    const Found kind = with_unit(value);
+    if (!kind) return kind;
+    value = (minus ? -1 : 1) * out_.steps_.back().value;
+    out_.steps_.resize(before);
+    return kind;
+  }
+  // table(argument, argument, value, argument, value, ...)
+  Found table(std::size_t column) {
+    const std::size_t there = next_column();
+    const Found argument = either();
+    if (!argument || !need_value(*argument, there)) return std::nullopt;
+    Kind arguments = *argument;
+    Found values;
+    Formula::Rows rows;
+    while (take(",")) {
+      double number = 0;
+      std::size_t place = next_column();
+      const Found x = constant(number);
+      if (!x) return x;
+      const Found same = common(arguments, *x, place, "{} does not go with {}");
+      if (!same) return same;
+      arguments = *same;
+      if (!rows.argument.empty() && !(number > rows.argument.back()))
+        return none(place, "the arguments of a table rise");
+      rows.argument.push_back(number);
+      if (!take(",")) return none(next_column(), "a row of a table has an argument and a value");
+      place = next_column();
+      const Found y = constant(number);
+      if (!y) return y;
+      values = values ? common(*values, *y, place, "{} does not go with {}") : y;
+      if (!values) return values;
+      rows.value.push_back(number);
+    }
+    if (!take(")")) return none(next_column(), "')' is missing");
+    if (rows.value.size() < 2)
+      return none(column, "a table has two rows at least: table(argument, 0 mm, 10 N, 20 mm, 30 N)");
+    step(Code::table, 0, out_.tables_.size());
+    out_.tables_.push_back(std::move(rows));
+    return values;
+  }
   // Both values are computed; the condition takes one of them.
   Found choice() {
     std::size_t column = next_column();
@@ -509,6 +579,7 @@ class FormulaReader {
 
   std::string_view text_;
   std::span<const FormulaName> names_;
+  const FormulaLookup& lookup_;
   Formula& out_;
   FormulaError& error_;
   std::size_t at_ = 0;
@@ -516,10 +587,11 @@ class FormulaReader {
 };
 
 std::optional<Formula> Formula::read(std::string_view text, Dimension result,
-                                     std::span<const FormulaName> names, FormulaError& error) {
+                                     std::span<const FormulaName> names, FormulaError& error,
+                                     const FormulaLookup& lookup) {
   Formula out;
   error = {};
-  if (!FormulaReader(text, names, out, error).read(result)) return std::nullopt;
+  if (!FormulaReader(text, names, lookup, out, error).read(result)) return std::nullopt;
   out.text_ = text;
   return out;
 }
@@ -603,22 +675,77 @@ double Formula::of_two(Code code, double a, double b) {
   }
 }
 
-double Formula::operator()(std::span<const double> values) const {
+double Formula::of_table(const Rows& rows, double a) {
+  const auto above = std::upper_bound(rows.argument.begin(), rows.argument.end(), a);
+  if (above == rows.argument.begin()) return std::isnan(a) ? nan : rows.value.front();
+  if (above == rows.argument.end()) return std::isnan(a) ? nan : rows.value.back();
+  const auto i = static_cast<std::size_t>(above - rows.argument.begin());
+  const double share = (a - rows.argument[i - 1]) / (rows.argument[i] - rows.argument[i - 1]);
+  return rows.value[i - 1] + share * (rows.value[i] - rows.value[i - 1]);
+}
+
+// The distance from the nearest row, with another sign in every other interval.
+double Formula::kink_of_table(const Rows& rows, double a) {
+  const auto above = std::upper_bound(rows.argument.begin(), rows.argument.end(), a);
+  double distance = infinity;
+  if (above != rows.argument.begin()) distance = a - *(above - 1);
+  if (above != rows.argument.end()) distance = std::min(distance, *above - a);
+  return (above - rows.argument.begin()) % 2 == 0 ? distance : -distance;
+}
+
+bool Formula::has_kink(Code code) {
+  switch (code) {
+    case Code::magnitude:
+    case Code::sign:
+    case Code::whole:
+    case Code::table:
+    case Code::less:
+    case Code::less_equal:
+    case Code::greater:
+    case Code::greater_equal:
+    case Code::least:
+    case Code::greatest:
+    case Code::remainder:
+      return true;
+    default:
+      return false;
+  }
+}
+
+double Formula::kink(Code code, double a, double b) {
+  if (code == Code::whole) return std::sin(pi * a);
+  if (code == Code::remainder) return std::sin(pi * a / b);
+  return code >= first_of_two ? a - b : a;
+}
+
+std::size_t Formula::kinks() const {
+  return static_cast<std::size_t>(
+      std::count_if(steps_.begin(), steps_.end(), [](const Step& s) { return has_kink(s.code); }));
+}
+
+double Formula::value(std::span<const double> values, double* kinks) const {
   // Each level of nesting keeps a value at each of its five sorts of signs, and two of a choice.
   std::array<double, 8 * max_depth> stack;
   std::size_t n = 0;
   for (const Step& s : steps_) {
     if (s.code == Code::number || s.code == Code::name) {
       stack[n++] = s.code == Code::number ? s.value : values[s.index];
-    } else if (s.code == Code::choose) {
+      continue;
+    }
+    if (s.code == Code::choose) {
       n -= 2;
       stack[n - 1] = stack[n - 1] != 0 ? stack[n] : stack[n + 1];
-    } else if (s.code >= first_of_two) {
-      --n;
-      stack[n - 1] = of_two(s.code, stack[n - 1], stack[n]);
-    } else {
-      stack[n - 1] = of_one(s, stack[n - 1]);
+      continue;
     }
+    if (s.code >= first_of_two) --n;
+    const double a = stack[n - 1];
+    if (s.code == Code::table) {
+      if (kinks) *kinks++ = kink_of_table(tables_[s.index], a);
+      stack[n - 1] = of_table(tables_[s.index], a);
+      continue;
+    }
+    if (kinks && has_kink(s.code)) *kinks++ = kink(s.code, a, s.code >= first_of_two ? stack[n] : 0);
+    stack[n - 1] = s.code >= first_of_two ? of_two(s.code, a, stack[n]) : of_one(s, a);
   }
   return stack[0];
 }

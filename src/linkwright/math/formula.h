@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +28,19 @@ struct FormulaName {
   Dimension dimension = Dimension::none;
 };
 
+/// Quantities that a formula names by functions of a name in quotes, as q("O").
+struct FormulaLookup {
+  /// A quantity that was found.
+  struct Found {
+    std::size_t index = 0;  ///< of its value, behind those of the names of the formula
+    Dimension dimension = Dimension::none;
+  };
+  std::vector<std::string_view> functions;  ///< the words before the bracket
+  /// Finds the quantity of a function and a name; nothing, and the reason in `problem`, if there is none.
+  std::function<std::optional<Found>(std::string_view function, std::string_view name, std::string& problem)>
+      find;
+};
+
 /// What is wrong with a formula, and where: columns count from 1.
 struct FormulaError {
   std::size_t column = 0;
@@ -41,13 +55,23 @@ class Formula {
 
   /// Reads a formula whose value is of the dimension `result`. Allowed are + - * / ^ with constant exponents,
   /// sin cos tan asin acos atan atan2 sqrt abs min max exp log sign floor mod, if(condition, value, other
-  /// value) with < <= > >= == and or not, pi, and `names`. A unit follows its number: 15 N/mm, without blanks
-  /// in it. Nothing, and `error`, if the text is no such formula.
+  /// value) with < <= > >= == and or not, table(argument, 0 mm, 10 N, 20 mm, 30 N, ...) with straight lines
+  /// between its rows and its end values beyond them, pi, `names`, and the functions of `lookup`. A unit
+  /// follows its number: 15 N/mm, without blanks in it. Nothing, and `error`, if the text is no such formula.
   static std::optional<Formula> read(std::string_view text, Dimension result,
-                                     std::span<const FormulaName> names, FormulaError& error);
+                                     std::span<const FormulaName> names, FormulaError& error,
+                                     const FormulaLookup& lookup = {});
 
   /// The value for the values of the names, in SI units: infinite or not a number where it has none.
-  double operator()(std::span<const double> values) const;
+  double operator()(std::span<const double> values) const { return value(values, nullptr); }
+
+  /// The number of places in the formula at which its value, or its slope, may jump: comparisons, abs, min,
+  /// max, sign, floor, mod and tables.
+  std::size_t kinks() const;
+  /// A number for each of these places that changes its sign where the value or its slope jumps.
+  void find_kinks(std::span<const double> values, std::span<double> kinks) const {
+    value(values, kinks.data());
+  }
 
   /// True if the value of a name matters, by its index.
   bool uses(std::size_t name) const;
@@ -75,6 +99,7 @@ class Formula {
     logarithm,
     sign,
     whole,
+    table,
     plus,
     minus,
     times,
@@ -95,14 +120,23 @@ class Formula {
   struct Step {
     Code code = Code::number;
     double value = 0;       ///< number, exponent
-    std::size_t index = 0;  ///< of a name
+    std::size_t index = 0;  ///< of a name or a table
+  };
+  struct Rows {
+    std::vector<double> argument, value;
   };
 
+  static bool has_kink(Code code);
+  static double kink(Code code, double a, double b);
+  static double of_table(const Rows& rows, double a);
+  static double kink_of_table(const Rows& rows, double a);
+  double value(std::span<const double> values, double* kinks) const;
   static double of_one(const Step& step, double a);
   static double of_two(Code code, double a, double b);
 
   std::string text_;
   std::vector<Step> steps_;  ///< in the order of a stack
+  std::vector<Rows> tables_;
 };
 
 }  // namespace linkwright::math

@@ -371,6 +371,11 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                    "leave it out, or join the wheels by a gear");
   if (!description->linkage.stops.empty())
     document.error("mechanism", "joints with clearance do not go with stops", "leave the stops out");
+  if (const std::string load = planar::load_by_joint(description->linkage); !load.empty())
+    document.error(
+        "mechanism",
+        fmt::format("the formula of '{}' names a joint, which joints with clearance do not go with", load),
+        "name points instead, x(\"body.point\")");
   Value::Array drives, clearances;
   s.drives = planar::read_input_drives(document, *description, drives);
   planar::write_linkage(*description, prepared.canonical);

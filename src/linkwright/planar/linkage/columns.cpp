@@ -297,11 +297,10 @@ void add_strut_columns(std::vector<LinkageColumn>& out, const Linkage& l, const 
         [](const LinkageInstant&, const Span& span) { return span.length; });
     add(q.rates, "speed", Dimension::speed, Needs::motion,
         [](const LinkageInstant&, const Span& span) { return span.rate; });
-    const bool turns = !plan.rotary.empty() && plan.rotary[0];
     add(q.drive, "force", Dimension::force, Needs::motion,
-        [&s, turns](const LinkageInstant& i, const Span& span) {
+        [&l, &plan, &s](const LinkageInstant& i, const Span& span) {
           const double input = i.inputs.empty() ? 0 : i.inputs[0].value;
-          return beyond_stroke(s, span.length) ? nan : push_of(s, span, turns, i.time, input);
+          return beyond_stroke(s, span.length) ? nan : push_of(s, l, plan, *i.motion, span, i.time, input);
         });
     add(q.power && stores_energy(s), "energy", Dimension::energy, Needs::motion,
         [&s](const LinkageInstant&, const Span& span) {

@@ -94,7 +94,7 @@ double lasting_power(const Linkage& l, const LinkagePlan& plan, const LinkageMot
   for (const Strut& s : l.struts) {
     if (!stores_energy(s)) continue;
     const Span span = span_of(l, plan, motion, s.first, s.second);
-    sum -= push_of(s, span, false, 0, 0) * span.rate;  // neither time nor input matter
+    sum -= push_of(s, l, plan, motion, span, 0, 0) * span.rate;  // neither time nor input matter
   }
   return sum;
 }
@@ -291,8 +291,8 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
     scale_velocities(inputs[0].rate);
   else
     solve_velocity(plan_, inputs, motion);
-  without_force = strut_without_force(linkage_, plan_, motion, time);
-  if (without_force) return failed(Status::limit_reached);
+  without_value = load_without_value(linkage_, plan_, motion, time);
+  if (without_value) return failed(Status::limit_reached);
   solve_acceleration(plan_, inputs, motion);
   needed_wrenches(time, inputs[0].value);
   if (elimination_) {

@@ -8,6 +8,7 @@
 #include "linkwright/planar/linkage/elimination.h"
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/linkage/strut.h"
 
 namespace linkwright::planar {
 
@@ -62,7 +63,7 @@ class LinkageDynamics {
   /// are there after solve_acceleration with the inputs that `solve` filled in.
   LinkageMotion motion;
   double power = 0;  ///< W at the last `solve`: of the prescribed drives and lasting_power of the loads
-  const Strut* without_force = nullptr;  ///< strut that had no force at the last `solve`; null: all have
+  LoadWithoutValue without_value = {};  ///< load that had no value at the last `solve`
   /// States of the joints with friction, which `solve` takes and fills in; nothing: the signs of their rates.
   std::optional<FrictionStates> states;
   /// W: what friction takes at the last `solve`.

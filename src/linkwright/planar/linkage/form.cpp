@@ -7,12 +7,13 @@
 #include <cmath>
 #include <complex>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/formula.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/detail/form_parts.h"
+#include "linkwright/planar/linkage/detail/load_formula.h"
 
 namespace linkwright::planar {
 namespace {
@@ -122,21 +123,6 @@ LoadFactor table_of(const StrutForm& f, FormNames& names) {
   return table;
 }
 
-// The force by a formula, in the order of the values that push_of gives it.
-void set_formula(Strut& s, const std::string& text, FormNames& names) {
-  static constexpr math::FormulaName known[] = {
-      {"time", Dimension::time}, {"s", Dimension::length}, {"v", Dimension::speed}};
-  math::FormulaError error;
-  auto formula = math::Formula::read(text, Dimension::force, known, error);
-  if (!formula)
-    return names.problem("formula", fmt::format("column {}: {}", error.column, error.message),
-                         "write for example \"200 N + 15 N/mm * (s - 20 mm)\"");
-  s.factor.against = formula->uses(0)   ? LoadArgument::time
-                     : formula->uses(2) ? LoadArgument::speed
-                                        : LoadArgument::length;
-  s.formula = std::make_shared<const math::Formula>(*std::move(formula));
-}
-
 Strut strut_of(const StrutForm& f, FormNames& names) {
   Strut s{.name = f.name, .first = names.point("first", f.first), .second = names.point("second", f.second)};
   const int laws = (f.force ? 1 : 0) + (f.gas ? 1 : 0) + (f.cylinder ? 1 : 0) + (f.formula ? 1 : 0) +
@@ -162,7 +148,6 @@ Strut strut_of(const StrutForm& f, FormNames& names) {
   }
   if (f.cylinder)
     s.cylinder = Cylinder{f.cylinder->bore, f.cylinder->rod, f.cylinder->pressure, f.cylinder->back_pressure};
-  if (f.formula) set_formula(s, *f.formula, names);
   return s;
 }
 
@@ -174,7 +159,7 @@ StrutForm form_of(const Strut& s, std::string first, std::string second, bool ro
     f.cylinder =
         CylinderForm{s.cylinder->bore, s.cylinder->rod, s.cylinder->pressure, s.cylinder->back_pressure};
   } else if (s.formula) {
-    f.formula = s.formula->text();
+    f.formula = texts_of(*s.formula).front();
   } else if (s.factor.against == LoadArgument::constant) {
     f.force = s.force;
   } else {
@@ -363,6 +348,65 @@ void add_stops(const StopForm& f, Linkage& l, FormNames& names) {
   }
 }
 
+// A load has a size, which a table may change, or a formula.
+void require_one_law(bool sized, bool has_formula, const FactorForm& factor, const char* what,
+                     const char* key, const std::string& name, FormNames& names) {
+  if (sized == has_formula)
+    names.problem(sized ? "formula" : key,
+                  fmt::format("{} '{}' has {}", what, name, sized ? "a size and a formula" : "no size"),
+                  fmt::format("give one of {} and formula", key));
+  else if (has_formula && factor.against != LoadArgument::constant)
+    names.problem("against", fmt::format("{} '{}' has a table and a formula", what, name),
+                  "leave one out; a formula may have table(...) in it");
+}
+
+// The formulas of loads, once all that they may name is known.
+void add_formulas(const LinkageForm& form, Linkage& l, FormNames& names) {
+  using Kind = LoadQuantity::Kind;
+  const LoadQuantity time{.kind = Kind::time};
+  const auto read = [&](std::span<const std::string> texts, Dimension result,
+                        std::span<const NamedQuantity> known, const char* example) {
+    std::string problem;
+    auto formula = load_formula(l, texts, result, known, problem);
+    if (!formula) names.problem("formula", problem, fmt::format("write for example {}", example));
+    return formula;
+  };
+  for (std::size_t i = 0; i < form.forces.size(); ++i) {
+    if (!form.forces[i].formula) continue;
+    names.at("force", i);
+    PointForce& f = l.forces[i];
+    const auto of_point = [&f](Kind kind) { return LoadQuantity{.kind = kind, .first = f.point}; };
+    const NamedQuantity known[] = {{{"time", Dimension::time}, time},
+                                   {{"x", Dimension::length}, of_point(Kind::x)},
+                                   {{"y", Dimension::length}, of_point(Kind::y)},
+                                   {{"vx", Dimension::speed}, of_point(Kind::x_speed)},
+                                   {{"vy", Dimension::speed}, of_point(Kind::y_speed)}};
+    f.formula = read(*form.forces[i].formula, Dimension::force, known,
+                     "[\"-3 N*s/m * vx\", \"10 N * sin(2*pi*time / (0.5 s))\"]");
+  }
+  for (std::size_t i = 0; i < form.torques.size(); ++i) {
+    if (!form.torques[i].formula) continue;
+    names.at("torque", i);
+    BodyTorque& t = l.torques[i];
+    const NamedQuantity known[] = {{{"time", Dimension::time}, time},
+                                   {{"speed", Dimension::speed_angular},
+                                    {.kind = Kind::turning, .first = {t.body, 0}, .second = {t.from, 0}}}};
+    t.formula = read(std::array{*form.torques[i].formula}, Dimension::torque, known,
+                     "'5 N*m - 0.2 N*m*s * rate(\"O\")'");
+  }
+  for (std::size_t i = 0; i < form.struts.size(); ++i) {
+    if (!form.struts[i].formula) continue;
+    names.at("strut", i);
+    Strut& s = l.struts[i];
+    const NamedQuantity known[] = {
+        {{"time", Dimension::time}, time},
+        {{"s", Dimension::length}, {.kind = Kind::length, .first = s.first, .second = s.second}},
+        {{"v", Dimension::speed}, {.kind = Kind::lengthening, .first = s.first, .second = s.second}}};
+    s.formula = read(std::array{*form.struts[i].formula}, Dimension::force, known,
+                     "\"200 N + 15 N/mm * (s - 20 mm)\"");
+  }
+}
+
 // Springs, forces, torques, struts and stops.
 void add_loads(const LinkageForm& form, Linkage& l, FormNames& names) {
   for (std::size_t i = 0; i < form.springs.size(); ++i) {
@@ -381,14 +425,20 @@ void add_loads(const LinkageForm& form, Linkage& l, FormNames& names) {
   for (std::size_t i = 0; i < form.forces.size(); ++i) {
     const ForceForm& f = form.forces[i];
     names.at("force", i);
-    l.forces.push_back(
-        {f.name, names.point("point", f.point), number(f.force), f.turns_with_body, factor_of(f.factor)});
+    require_one_law(f.force.has_value(), f.formula.has_value(), f.factor, "force", "force_N", f.name, names);
+    if (f.formula && f.formula->size() != 2)
+      names.problem("formula", fmt::format("force '{}' has {} formulas", f.name, f.formula->size()),
+                    "write two, of its components along x and y: [\"10 N\", \"0\"]");
+    l.forces.push_back({f.name, names.point("point", f.point), number(f.force.value_or(Place{})),
+                        f.turns_with_body, factor_of(f.factor)});
   }
   for (std::size_t i = 0; i < form.torques.size(); ++i) {
     const TorqueForm& t = form.torques[i];
     names.at("torque", i);
-    l.torques.push_back(
-        {t.name, names.body("body", t.body), names.body("from", t.from), t.torque, factor_of(t.factor)});
+    require_one_law(t.torque.has_value(), t.formula.has_value(), t.factor, "torque", "torque_N_m", t.name,
+                    names);
+    l.torques.push_back({t.name, names.body("body", t.body), names.body("from", t.from), t.torque.value_or(0),
+                         factor_of(t.factor)});
   }
   for (std::size_t i = 0; i < form.struts.size(); ++i) {
     names.at("strut", i);
@@ -398,6 +448,7 @@ void add_loads(const LinkageForm& form, Linkage& l, FormNames& names) {
     names.at("stop", i);
     add_stops(form.stops[i], l, names);
   }
+  if (names.clean()) add_formulas(form, l, names);
 }
 
 }  // namespace
@@ -519,9 +570,13 @@ LinkageForm form_of(const Linkage& l) {
     form.torsion_springs.push_back(
         {s.name, body(s.first), body(s.second), s.stiffness, s.free_angle, s.damping});
   for (const PointForce& f : l.forces)
-    form.forces.push_back({f.name, point(f.point), place(f.force), f.turns_with_body, form_of(f.factor)});
+    form.forces.push_back({f.name, point(f.point), f.formula ? std::nullopt : std::optional(place(f.force)),
+                           f.turns_with_body, form_of(f.factor),
+                           f.formula ? std::optional(texts_of(*f.formula)) : std::nullopt});
   for (const BodyTorque& t : l.torques)
-    form.torques.push_back({t.name, body(t.body), body(t.from), t.torque, form_of(t.factor)});
+    form.torques.push_back({t.name, body(t.body), body(t.from),
+                            t.formula ? std::nullopt : std::optional(t.torque), form_of(t.factor),
+                            t.formula ? std::optional(texts_of(*t.formula).front()) : std::nullopt});
   for (const Belt& b : l.belts) {
     BeltForm f{.name = b.name, .closed = b.closed, .tension = b.tension};
     for (const BeltWheel& w : b.wheels)

@@ -132,14 +132,16 @@ struct FactorForm {
 };
 struct ForceForm {
   std::string name, point;
-  Place force{};
+  std::optional<Place> force;
   bool turns_with_body = false;
   FactorForm factor;
+  std::optional<std::vector<std::string>> formula;
 };
 struct TorqueForm {
   std::string name, body, from = "ground";
-  double torque = 0;
+  std::optional<double> torque;
   FactorForm factor;
+  std::optional<std::string> formula;
 };
 struct GasSpringForm {
   std::optional<double> extended_force, extended_length;
@@ -466,17 +468,27 @@ template <class Visitor>
 void fields(Visitor&& visit, ForceForm& f) {
   visit(field::entry("name", "its name").required(), f.name);
   visit(field::entry("point", "where it acts, \"body.point\"").required(), f.point);
-  visit(field::force("force", "components along x and y").required(), f.force);
+  visit(field::force("force", "components along x and y"), f.force);
   visit(field::entry("turns_with_body", "components in the frame of the body"), f.turns_with_body);
   fields(visit, f.factor);
+  visit(field::entry(
+            "formula",
+            "instead of `force` and a table, its components as two formulas of time, the place x, y and "
+            "the speed vx, vy of the point, and what other formulas name: [\"-3 N*s/m * vx\", \"0\"]"),
+        f.formula);
 }
 template <class Visitor>
 void fields(Visitor&& visit, TorqueForm& t) {
   visit(field::entry("name", "its name").required(), t.name);
   visit(field::entry("body", "the body it turns").required(), t.body);
   visit(field::entry("from", "the body that feels the opposite"), t.from);
-  visit(field::torque("torque", "counter-clockwise positive").required(), t.torque);
+  visit(field::torque("torque", "counter-clockwise positive"), t.torque);
   fields(visit, t.factor);
+  visit(field::entry(
+            "formula",
+            "instead of `torque` and a table, a formula of time, the angular speed `speed` of the body "
+            "against `from`, and what other formulas name: '5 N*m - 0.2 N*m*s * rate(\"O\")'"),
+        t.formula);
 }
 /// Says to readers that a key stands for several quantities, which its unit tells apart.
 template <class Visitor>
@@ -534,9 +546,13 @@ void fields(Visitor&& visit, StrutForm& s) {
   visit(field::entry("gas", "gas spring, instead of a force or a table"), s.gas);
   visit(field::entry("cylinder", "cylinder with constant pressures, instead of a force or a table"),
         s.cylinder);
-  visit(field::entry("formula",
-                     "force as a formula of time, length s and speed v, \"200 N + 15 N/mm * (s - 20 mm)\""),
-        s.formula);
+  visit(
+      field::entry(
+          "formula",
+          "force as a formula of time, length s and speed v, \"200 N + 15 N/mm * (s - 20 mm)\"; by names in "
+          "quotes also of joints, q(\"O\"), rate(\"O\"), points, x, y, vx, vy(\"rod.B\"), and struts and "
+          "springs, length, speed(\"spring\")"),
+      s.formula);
 }
 template <class Visitor>
 void follower_value(Visitor& visit, std::string_view key, std::string_view summary, FollowerValueForm& v) {

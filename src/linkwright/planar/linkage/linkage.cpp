@@ -381,7 +381,7 @@ class Checker {
     if (!std::isfinite(s.force)) error(key, "is not finite", {});
     if (s.factor.against == LoadArgument::x || s.factor.against == LoadArgument::y)
       error(key, "a strut has two points: its table cannot go by x or y", "use length, speed, input or time");
-    if (!s.formula) factor(key, s.factor);
+    factor(key, s.factor);
     if (s.factor.against == LoadArgument::length && s.factor.period.value_or(0) != 0)
       error(key, "its table goes by length, which does not repeat", "leave the period out");
     if (s.gas) {

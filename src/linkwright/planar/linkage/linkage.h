@@ -16,10 +16,6 @@
 #include "linkwright/math/vector2.h"
 #include "linkwright/planar/cam/programme.h"
 
-namespace linkwright::math {
-class Formula;
-}
-
 namespace linkwright::planar {
 
 /// A named point of a body, in the frame of the body (m).
@@ -317,6 +313,33 @@ struct Linkage;
 /// @returns the names; empty if every table covers the interval
 std::vector<std::string> loads_held(const Linkage& linkage, bool turns, double low, double high);
 
+/// Formulas of a load instead of its table; a study file reads them.
+struct LoadFormula;
+
+/// True if formulas name such a quantity: the time, or a speed.
+///
+/// @param formula the formulas
+/// @param argument time or speed
+/// @returns true if they do
+bool formula_goes_by(const LoadFormula& formula, LoadArgument argument);
+
+/// The first load whose formula names the coordinate or rate of a joint, for computations that renumber
+/// joints.
+///
+/// @param linkage the linkage
+/// @returns its name; empty if there is none
+std::string load_by_joint(const Linkage& linkage);
+
+/// True if a force, torque or strut goes by a quantity, by its table or by its formula.
+///
+/// @param load the load
+/// @param argument time or speed; what else tables go by, formulas never do
+/// @returns true if it does
+template <class Load>
+bool goes_by(const Load& load, LoadArgument argument) {
+  return load.factor.against == argument || (load.formula && formula_goes_by(*load.formula, argument));
+}
+
 /// A force on a point of a body, in the global frame or turning with the body.
 struct PointForce {
   std::string name;            ///< unique among the forces
@@ -325,6 +348,8 @@ struct PointForce {
   /// true: its direction is given in the frame of the body; false: in the global frame
   bool turns_with_body = false;
   LoadFactor factor;  ///< factor of the force
+  /// Formulas of its components, instead of `force` and `factor`.
+  std::shared_ptr<const LoadFormula> formula = {};
 };
 
 /// A torque on a body by the ground, or by another body, on which the opposite torque acts.
@@ -334,6 +359,8 @@ struct BodyTorque {
   int from = 0;       ///< index of the body that exerts it
   double torque = 0;  ///< N m, counter-clockwise positive
   LoadFactor factor;  ///< factor of the torque
+  /// Formula of the torque, instead of `torque` and `factor`.
+  std::shared_ptr<const LoadFormula> formula = {};
 };
 
 /// A gas spring: its force rises linearly as it becomes shorter.
@@ -363,9 +390,8 @@ struct Strut {
   LoadFactor factor;                      ///< factor of the force
   std::optional<GasSpring> gas = {};      ///< law of a gas spring instead
   std::optional<Cylinder> cylinder = {};  ///< law of a cylinder instead
-  /// Formula of the force by time, length and speed instead; `factor.against` says what it goes by first of
-  /// time, speed and length, and has no table.
-  std::shared_ptr<const math::Formula> formula = {};
+  /// Formula of the force instead.
+  std::shared_ptr<const LoadFormula> formula = {};
 };
 
 /// A stop of a pin, slide or slot: its coordinate cannot pass a value. Rigid, it throws the joint back with a
@@ -456,6 +482,7 @@ struct Linkage {
   std::vector<Belt> belts;                     ///< belts, chains and ropes
   std::vector<LinkageCam> cams;                ///< cams with their followers
   std::vector<JointStop> stops;                ///< stops of joints
+  std::vector<int> counted_pins;               ///< pins whose angles formulas name, with their turns
   std::complex<double> gravity{0, -9.81};      ///< m/s2, acceleration of free fall
   std::complex<double> moment_centre;          ///< shaking moments are about this place, global (m)
 };

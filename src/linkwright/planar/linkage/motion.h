@@ -89,7 +89,8 @@ class LinkageMotion {
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
   std::vector<double> modes;
   std::vector<GeneralGroupPointer> general;  ///< states of groups with a matrix, else null
-  /// rad, one a torsion spring, then one a stop (0 of a slide), see PlanTwist; NaN before the first position
+  /// rad, one a torsion spring, then one a stop (0 of a slide), then one a counted pin, see PlanTwist; NaN
+  /// before the first position
   std::vector<double> twists;
   /// Efforts of the rigid stops (N m or N, >= 0), one a stop, as those who solve for them leave them; of
   /// stops that give way 1 where they are touched, else 0. The loads of the linkage have them. Empty: rigid

@@ -69,6 +69,8 @@ void find_twists(PlanDraft& d) {
     else
       d.plan().twists.push_back({.counted = true, .gains = {}});
   }
+  for (const int k : d.linkage.counted_pins)
+    add(d.linkage.joints[at(k)].first.body, d.linkage.joints[at(k)].second.body, 0);
 }
 
 PlanResult plan_linkage(const Linkage& linkage, PlanRoute route) {

@@ -362,7 +362,7 @@ struct LinkagePlan {
   std::vector<Group> groups;                       ///< in the order of the solution
   std::vector<int> group_of_part;                  ///< -1 of the ground
   std::vector<std::optional<DrivenAngle>> turned;  ///< one a part; nothing of those that loops turn
-  std::vector<PlanTwist> twists;                   ///< one a torsion spring, then one a stop
+  std::vector<PlanTwist> twists;                   ///< one a torsion spring, a stop, a counted pin
   std::vector<SharedPin> shared_pins;              ///< pins whose pairs differ from those of the model
   std::vector<std::string> torque_gears;           ///< gears without tooth force, each with the reason
   std::vector<int> redundant_gears;                ///< joints that repeat what other gears say

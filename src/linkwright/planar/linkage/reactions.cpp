@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -7,6 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/detail/load_formula.h"
 #include "linkwright/planar/linkage/detail/pair_rows.h"
 #include "linkwright/planar/linkage/friction.h"
 #include "linkwright/planar/linkage/general.h"
@@ -427,19 +429,26 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   const bool turns = !plan.rotary.empty() && plan.rotary[0];
   for (const PointForce& p : l.forces) {
     const math::Vec2 there = point_of(l, plan, motion, p.point).position;
-    math::Vec2 force = strength(p.factor, turns, time, input, there, 0) * math::vec(p.force);
+    math::Vec2 force{0, 0};
+    if (p.formula) {
+      const std::array<double, 2> values = values_of(*p.formula, l, plan, motion, time);
+      force = {values[0], values[1]};
+    } else {
+      force = strength(p.factor, turns, time, input, there, 0) * math::vec(p.force);
+    }
     if (p.turns_with_body) force = rotate(body_state(plan, motion, p.point.body).direction, force);
     loads.push_back({p.point.body, there, force, 0});
   }
   for (const BodyTorque& t : l.torques) {
     const double speed = part_of(plan, motion, t.body).speed - part_of(plan, motion, t.from).speed;
-    const double torque = t.torque * strength(t.factor, turns, time, input, {0, 0}, speed);
+    const double torque = t.formula ? values_of(*t.formula, l, plan, motion, time)[0]
+                                    : t.torque * strength(t.factor, turns, time, input, {0, 0}, speed);
     loads.push_back({t.body, part_of(plan, motion, t.body).origin, {0, 0}, torque});
     loads.push_back({t.from, part_of(plan, motion, t.from).origin, {0, 0}, -torque});
   }
   for (const Strut& s : l.struts) {
     const Span span = span_of(l, plan, motion, s.first, s.second);
-    const double push = push_of(s, span, turns, time, input);
+    const double push = push_of(s, l, plan, motion, span, time, input);
     loads.push_back({s.first.body, span.first, -push * span.along, 0});
     loads.push_back({s.second.body, span.second, push * span.along, 0});
   }
@@ -475,7 +484,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   f.loads.clear();
   f.iterations = 0;
   if (motion.status != Status::done) return nothing(f);
-  if (strut_without_force(l, plan, motion, time)) {
+  if (load_without_value(l, plan, motion, time)) {
     f.status = Status::limit_reached;
     return nothing(f);
   }

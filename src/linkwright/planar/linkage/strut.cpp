@@ -7,7 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/formula.h"
+#include "linkwright/planar/linkage/detail/load_formula.h"
 #include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
@@ -53,10 +53,12 @@ Span span_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& mot
   return span;
 }
 
-double push_of(const Strut& s, const Span& span, bool turns, double time, double input) {
+double push_of(const Strut& s, const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+               const Span& span, double time, double input) {
   if (s.gas) return gas_force(*s.gas, span.length);
   if (s.cylinder) return cylinder_force(*s.cylinder);
-  if (s.formula) return (*s.formula)(std::array{time, span.length, span.rate});
+  if (s.formula) return values_of(*s.formula, l, plan, motion, time)[0];
+  const bool turns = !plan.rotary.empty() && plan.rotary[0];
   switch (s.factor.against) {
     case LoadArgument::input:
       return s.force * factor_at(s.factor, input, turns);
@@ -80,10 +82,6 @@ bool stores_energy(const Strut& s) {
          s.factor.against == LoadArgument::length;
 }
 
-bool depends_on_speed(const Strut& s) {
-  return s.formula ? s.formula->uses(2) : s.factor.against == LoadArgument::speed;
-}
-
 double stored_energy(const Strut& s, double length) {
   if (!stores_energy(s)) return 0;
   if (s.gas) {
@@ -101,21 +99,34 @@ bool beyond_stroke(const Strut& s, double length) {
   return length > longest + rounding || length < longest - s.gas->stroke - rounding;
 }
 
-const Strut* strut_without_force(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
-                                 double time) {
+LoadWithoutValue load_without_value(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                                    double time) {
+  const auto without = [&](const auto& load) {
+    if (!load.formula) return false;
+    const std::array<double, 2> values = values_of(*load.formula, l, plan, motion, time);
+    return !std::isfinite(values[0] + values[1]);
+  };
   for (const Strut& s : l.struts) {
     if (!s.gas && !s.formula) continue;
-    const Span span = span_of(l, plan, motion, s.first, s.second);
-    if (s.gas ? beyond_stroke(s, span.length) : !std::isfinite(push_of(s, span, false, time, 0))) return &s;
+    const double length = span_of(l, plan, motion, s.first, s.second).length;
+    if (s.gas ? beyond_stroke(s, length) : without(s)) return {.strut = &s, .length = length};
   }
-  return nullptr;
+  for (const PointForce& f : l.forces)
+    if (without(f)) return {.force = &f};
+  for (const BodyTorque& t : l.torques)
+    if (without(t)) return {.torque = &t};
+  return {};
 }
 
-Sentence without_force_text(const Strut& s, double length) {
-  LINKWRIGHT_REQUIRE(s.gas || s.formula, "strut '{}' has a force at any length", s.name);
+Sentence without_value_text(const LoadWithoutValue& load) {
+  LINKWRIGHT_REQUIRE(load, "all loads have values, with a length of {} m", load.length);
+  if (load.force) return say("the formula of force '{}' has no value", load.force->name);
+  if (load.torque) return say("the formula of torque '{}' has no value", load.torque->name);
+  const Strut& s = *load.strut;
   if (s.formula)
-    return say("the formula of strut '{}' has no value at a length of {}", s.name, millimetres(length, 5));
-  return say("gas spring '{}' would be {} long; it goes from {} to {}", s.name, millimetres(length, 5),
+    return say("the formula of strut '{}' has no value at a length of {}", s.name,
+               millimetres(load.length, 5));
+  return say("gas spring '{}' would be {} long; it goes from {} to {}", s.name, millimetres(load.length, 5),
              millimetres(s.gas->extended_length - s.gas->stroke, 5), millimetres(s.gas->extended_length, 5));
 }
 

@@ -34,25 +34,22 @@ Span span_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotio
 /// The force of a strut.
 ///
 /// @param strut the strut
+/// @param linkage the linkage
+/// @param plan its plan
+/// @param motion its motion, velocities included
 /// @param span the line between its ends
-/// @param turns true if the first input turns
 /// @param time time (s)
 /// @param input value of the first input (rad or m)
 /// @returns force (N), positive where it pushes its ends apart; that of a gas spring beyond its stroke goes
 ///   on linearly
-double push_of(const Strut& strut, const Span& span, bool turns, double time, double input);
+double push_of(const Strut& strut, const Linkage& linkage, const LinkagePlan& plan,
+               const LinkageMotion& motion, const Span& span, double time, double input);
 
 /// True if the force of a strut depends on its length alone, so that it stores energy.
 ///
 /// @param strut the strut
 /// @returns true if it stores energy
 bool stores_energy(const Strut& strut);
-
-/// True if the force of a strut depends on the speed at which its ends part.
-///
-/// @param strut the strut
-/// @returns true if it does
-bool depends_on_speed(const Strut& strut);
 
 /// Energy that a strut stores.
 ///
@@ -69,22 +66,32 @@ double stored_energy(const Strut& strut, double length);
 /// @returns true if it cannot have that length
 bool beyond_stroke(const Strut& strut, double length);
 
-/// The first strut without a force: a gas spring beyond its stroke, or a formula that has no value.
+/// A load without a value: a gas spring beyond its stroke, or a formula that has none. The linkage owns what
+/// it refers to.
+struct LoadWithoutValue {
+  const Strut* strut = nullptr;        ///< the strut, if it is one
+  const PointForce* force = nullptr;   ///< the force, if it is one
+  const BodyTorque* torque = nullptr;  ///< the torque, if it is one
+  double length = 0;                   ///< distance of the ends of a strut (m)
+  /// @returns true if there is such a load
+  explicit operator bool() const { return strut || force || torque; }
+};
+
+/// The first load without a value.
 ///
 /// @param linkage the linkage
 /// @param plan its plan
 /// @param motion its motion, velocities included
 /// @param time time (s)
-/// @returns the strut, which the linkage owns; null if there is none
-const Strut* strut_without_force(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
-                                 double time);
+/// @returns the load; none if all have values
+LoadWithoutValue load_without_value(const Linkage& linkage, const LinkagePlan& plan,
+                                    const LinkageMotion& motion, double time);
 
-/// The reason why a strut has no force, for messages: "gas spring 's' would be 270 mm long; it goes from 276
+/// The reason why a load has no value, for messages: "gas spring 's' would be 270 mm long; it goes from 276
 /// to 356 mm".
 ///
-/// @param strut a strut of `strut_without_force`
-/// @param length distance of its ends (m)
+/// @param load a load of `load_without_value`
 /// @returns the sentence
-Sentence without_force_text(const Strut& strut, double length);
+Sentence without_value_text(const LoadWithoutValue& load);
 
 }  // namespace linkwright::planar

@@ -10,6 +10,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/detail/load_formula.h"
 #include "linkwright/planar/linkage/plan.h"
 
 namespace linkwright::planar {
@@ -262,6 +263,18 @@ class Builder {
       move(out.torsion_springs[k].first, out.torsion_springs[k].second,
            "torsion spring '" + out.torsion_springs[k].name + "'");
     for (BodyTorque& t : out.torques) move(t.from, t.body, "torque '" + t.name + "'");
+    for_formulas(out, [this](auto& load) {
+      auto moved = std::make_shared<LoadFormula>(*load.formula);
+      for (LoadQuantity& q : moved->quantities) {
+        if (q.kind == LoadQuantity::Kind::turning) {
+          move(q.second.body, q.first.body, "torque '" + load.name + "'");
+        } else {
+          move(q.first);
+          move(q.second);
+        }
+      }
+      load.formula = std::move(moved);
+    });
   }
 
   // ---- the inputs that are added ------------------------------------------------------------------------

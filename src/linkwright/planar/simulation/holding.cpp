@@ -36,7 +36,7 @@ void HoldingForces::set_friction(double factor) {
 // A force of that size in its direction, without the table that it may have.
 void HoldingForces::set_load(double size) {
   PointForce& force = l_.forces[*load_];
-  force.factor = {};
+  force.factor = {}, force.formula = {};
   force.force = size * (original_.forces[*load_].force / std::abs(original_.forces[*load_].force));
 }
 
@@ -150,7 +150,7 @@ class StuckLinkage {
     for (const double value : values) inputs_.push_back({value, 0, 0});
     dynamics_.motion.modes = placed.modes;
     dynamics_.motion.parts = placed.parts;
-    l_.forces[load].factor = {};
+    l_.forces[load].factor = {}, l_.forces[load].formula = {};
   }
 
   // The share for a size of the load, with all friction times a factor; NaN where it cannot be told.

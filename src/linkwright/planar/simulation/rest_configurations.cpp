@@ -25,7 +25,7 @@ class RestNewton {
   RestNewton(const Linkage& linkage, const LinkagePlan& plan, const RestGrid& grid)
       : forces_(linkage, plan, grid.free),
         grid_(grid),
-        counted_(!linkage.torsion_springs.empty()),
+        counted_(!linkage.torsion_springs.empty() || !linkage.counted_pins.empty()),
         all_(grid.inputs) {
     for (const std::size_t k : grid.free) {
       rotary_.push_back(plan.rotary[k]);

@@ -9,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/linkage/detail/load_formula.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/smooth_branch.h"
@@ -54,6 +55,9 @@ Simulation::Simulation(const Linkage& l, const LinkagePlan& plan, std::span<cons
 SimulationReport Simulation::run(std::span<const double> times, const RunContext* context) {
   breaks_ = breaks_of(l_, drives_, times.front(), times.back());
   span_ = times.back() - times.front();
+  std::size_t kinks = 0;
+  for_formulas(l_, [&kinks](const auto& load) { kinks += kinks_of(*load.formula); });
+  kinks_of_loads_.assign(kinks, 1);
   if (!start(times.front())) return std::move(report_);
   std::vector<double> y = state();
   if (!contacts_.empty() && !start_stops(times.front(), y)) return std::move(report_);
@@ -71,6 +75,7 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
     events.resize(events.size() + 2, {.crossing = math::OdeCrossing::either});
   for (std::size_t k = 0; k < contacts_.size(); ++k)
     events.push_back({.crossing = math::OdeCrossing::falling});
+  events.resize(events.size() + kinks_of_loads_.size(), {.crossing = math::OdeCrossing::either});
   first_watched_ = events.size();
   events.resize(first_watched_ + watch_.count);
   watched_.assign(watch_.count, 1);
@@ -88,6 +93,8 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
       }
       if (friction_) friction_values(t, now, values.subspan(i, 2 * rubbing_.size()));
       if (!contacts_.empty()) stop_values(t, now, values.subspan(first_stop_event(), contacts_.size()));
+      if (!kinks_of_loads_.empty())
+        kink_values(t, now, values.subspan(first_kink_event(), kinks_of_loads_.size()));
       // Beyond what can be placed they stay what they were.
       if (watch_.count > 0 && watched(t, now).status == Status::done) watch_.values(instant_, watched_);
       std::copy(watched_.begin(), watched_.end(),
@@ -393,11 +400,15 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
       rubbed.push_back(event - first_friction_event());
   std::vector<std::size_t> met;
   for (const std::size_t event : which)
-    if (event >= first_stop_event() && event < first_watched_) met.push_back(event - first_stop_event());
+    if (event >= first_stop_event() && event < first_kink_event()) met.push_back(event - first_stop_event());
   if (!rubbed.empty()) action = friction_event(t, rubbed, y);
   if (action == math::OdeAction::stop) return action;
   if (!met.empty()) action = stop_event(t, met, y);
   if (action == math::OdeAction::stop) return action;
+  if (action == math::OdeAction::go_on && std::any_of(which.begin(), which.end(), [this](std::size_t event) {
+        return event >= first_kink_event() && event < first_watched_;
+      }))
+    action = kink_event(t);
   for (const std::size_t event : which) {
     if (event >= first_friction_event()) continue;
     const double value = event == 0 ? below_ : above_, sense = event == 0 ? -1 : 1;
@@ -425,6 +436,27 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
     action = math::OdeAction::restart;
   }
   return action;
+}
+
+void Simulation::kink_values(double t, std::span<const double> y, std::span<double> values) {
+  // Where the linkage is not known they stay what they were.
+  if (place_at(t, y, false)) {
+    std::span<double> left(kinks_of_loads_);
+    for_formulas(l_, [&](const auto& load) {
+      find_kinks(*load.formula, l_, plan_, dynamics_.motion, t, left);
+      left = left.subspan(kinks_of(*load.formula));
+    });
+  }
+  std::copy(kinks_of_loads_.begin(), kinks_of_loads_.end(), values.begin());
+}
+
+// The steps begin anew behind a jump or a bend, unless a formula throws the motion back onto it at once.
+math::OdeAction Simulation::kink_event(double t) {
+  constexpr int most_at_once = 20;
+  constexpr double at_once = 1e-9;
+  kinks_at_once_ = t - kinked_at_ <= at_once * span_ ? kinks_at_once_ + 1 : 0;
+  kinked_at_ = t;
+  return kinks_at_once_ < most_at_once ? math::OdeAction::restart : math::OdeAction::go_on;
 }
 
 std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputDrive> drives, double from,

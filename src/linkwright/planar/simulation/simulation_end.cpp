@@ -63,10 +63,8 @@ bool Simulation::start_stops(double t, std::span<double> y) {
 Sentence Simulation::start_message(Status status, double time) const {
   if (dynamics_.motion.failed_group >= 0)
     return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
-  if (const Strut* strut = strut_without_force(l_, plan_, dynamics_.motion, time))
-    return "the start does not work: " +
-           without_force_text(*strut,
-                              span_of(l_, plan_, dynamics_.motion, strut->first, strut->second).length);
+  if (const LoadWithoutValue load = load_without_value(l_, plan_, dynamics_.motion, time))
+    return "the start does not work: " + without_value_text(load);
   if (status == Status::singular)
     return "a free joint moves no mass, so its motion does not follow from the forces";
   if (status == Status::self_locking)
@@ -136,8 +134,14 @@ void Simulation::finish(const math::OdeReport& ode, std::span<const double> y) {
 }
 
 Sentence Simulation::end_of_stroke() {
-  if (const Strut* strut = dynamics_.without_force; strut && strut->formula)
-    return say("the formula of strut '{}' has no value from there on", strut->name);
+  if (const LoadWithoutValue& load = dynamics_.without_value; load && !(load.strut && load.strut->gas))
+    return say("the formula of {} '{}' has no value from there on",
+               load.strut   ? "strut"
+               : load.force ? "force"
+                            : "torque",
+               load.strut   ? load.strut->name
+               : load.force ? load.force->name
+                            : load.torque->name);
   constexpr double near = 1e-3;  // of the stroke: the last step ends before its end
   solve_position(plan_, inputs_, dynamics_.motion);
   if (dynamics_.motion.status != Status::done) return {};

@@ -341,7 +341,7 @@ bool Simulation::locks_ahead(double t) {
 bool Simulation::may_be_freed(double t) const {
   const auto changes = [&](const auto& load) {
     const LoadFactor& f = load.factor;
-    return f.against == LoadArgument::time &&
+    return goes_by(load, LoadArgument::time) &&
            (f.argument.empty() || period_of(f, false) > 0 || t < f.argument.back());
   };
   return !laws_.empty() || std::any_of(l_.forces.begin(), l_.forces.end(), changes) ||

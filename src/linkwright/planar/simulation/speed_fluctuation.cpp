@@ -30,7 +30,7 @@ void require(const Linkage& l, const LinkagePlan& plan, const SpeedFluctuationSe
   LINKWRIGHT_REQUIRE(
       std::isfinite(s.start + s.mean_speed) && s.mean_speed != 0 && s.fluctuation > 0 && s.samples >= 16,
       "start {}, mean speed {}, fluctuation {}, {} samples", s.start, s.mean_speed, s.fluctuation, s.samples);
-  const auto by_time = [](const auto& load) { return load.factor.against == LoadArgument::time; };
+  const auto by_time = [](const auto& load) { return goes_by(load, LoadArgument::time); };
   LINKWRIGHT_REQUIRE(std::none_of(l.forces.begin(), l.forces.end(), by_time) &&
                          std::none_of(l.torques.begin(), l.torques.end(), by_time) &&
                          std::none_of(l.struts.begin(), l.struts.end(), by_time),
@@ -133,7 +133,7 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
   SpeedFluctuation out;
   if (!rotates_fully(plan, setup, out) || !has_cycle(linkage, out)) return out;
   Linkage l = linkage;
-  std::erase_if(l.torques, [](const BodyTorque& t) { return t.factor.against == LoadArgument::speed; });
+  std::erase_if(l.torques, [](const BodyTorque& t) { return goes_by(t, LoadArgument::speed); });
   const double speed = setup.mean_speed, sense = speed > 0 ? 1 : -1, mean = std::abs(speed);
   const double step = full_turn / setup.samples;
   LinkageMotion motion(plan);

@@ -35,7 +35,7 @@ Status StaticForces::solve(std::span<const double> values) {
   else
     solve_position(plan_, inputs_, motion);
   if (motion.status != Status::done) return motion.status;
-  if (strut_without_force(l_, plan_, motion, 0)) return Status::limit_reached;
+  if (load_without_value(l_, plan_, motion, 0)) return Status::limit_reached;
   constexpr double rounding = 1e-13;  // rad, and sizes of the linkage
   const bool passed = passed_stop(l_, plan_, motion, rounding) >= 0;
   for (std::size_t j = 0; j < free_.size(); ++j) {

@@ -248,13 +248,13 @@ class CamReporter {
   // Forces that change with the speed otherwise than by its square.
   bool depends_on_speed() const {
     const Linkage& l = s_.linkage;
-    const auto by_speed = [](const auto& load) { return load.factor.against == LoadArgument::speed; };
+    const auto by_speed = [](const auto& load) { return goes_by(load, LoadArgument::speed); };
     return std::any_of(l.springs.begin(), l.springs.end(), [](const auto& s) { return s.damping > 0; }) ||
            std::any_of(l.torsion_springs.begin(), l.torsion_springs.end(),
                        [](const auto& s) { return s.damping > 0; }) ||
+           std::any_of(l.forces.begin(), l.forces.end(), by_speed) ||
            std::any_of(l.torques.begin(), l.torques.end(), by_speed) ||
-           std::any_of(l.struts.begin(), l.struts.end(),
-                       [](const Strut& s) { return planar::depends_on_speed(s); }) ||
+           std::any_of(l.struts.begin(), l.struts.end(), by_speed) ||
            std::any_of(l.joints.begin(), l.joints.end(), [](const auto& j) { return loses_power(j); });
   }
   Measured place(double input) const { return input_place(s_.linkage, s_.plan, 0, input, 6); }

@@ -171,12 +171,8 @@ class Runner {
       nearest_group_ = motion.failed_group;
     if (!passed_.back()) failures_.add(statuses_.back(), motion, r);
     if (motion.status != Status::done || passed_.back()) return;
-    if (!strut_beyond_ && statuses_.back() == Status::limit_reached) {
-      strut_beyond_ = strut_without_force(s_.linkage, s_.plan, motion, solver_.now.time);
-      if (strut_beyond_)
-        strut_length_ =
-            span_of(s_.linkage, s_.plan, motion, strut_beyond_->first, strut_beyond_->second).length;
-    }
+    if (!without_value_ && statuses_.back() == Status::limit_reached)
+      without_value_ = load_without_value(s_.linkage, s_.plan, motion, solver_.now.time);
     closure_.largest(motion.closure_residual, r);
     for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
       const GroupTraits traits = traits_of(s_.plan.groups[g]);
@@ -484,10 +480,11 @@ class Runner {
         warn(
             say("{} lock by friction: no force of the drive, however large, keeps the linkage moving", place),
             "less friction, or a position farther from the dead point, frees it");
-      else if (s == Status::limit_reached && strut_beyond_)
-        warn(say("{} have no forces: {}", place, without_force_text(*strut_beyond_, strut_length_)),
-             strut_beyond_->gas ? "end the sweep there, or take a longer gas spring"
-                                : "end the sweep there, or change the formula");
+      else if (s == Status::limit_reached && without_value_)
+        warn(say("{} have no forces: {}", place, without_value_text(without_value_)),
+             without_value_.strut && without_value_.strut->gas
+                 ? "end the sweep there, or take a longer gas spring"
+                 : "end the sweep there, or change the formula");
       else
         warn(say("{} have no answer ({})", place, to_string(s)),
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
@@ -621,8 +618,7 @@ class Runner {
   Failures failures_;
   study::Extreme nearest_, closure_, transmission_, shaking_, power_, balance_;
   std::vector<study::Extreme> drives_, joints_, racks_, strands_;
-  const Strut* strut_beyond_ = nullptr;  // the first gas spring beyond its stroke
-  double strut_length_ = 0;              // its length there, m
+  LoadWithoutValue without_value_ = {};  // the first one
   std::size_t weakest_ = 0;
   int nearest_group_ = -1;
   std::vector<double> modes_;

@@ -76,7 +76,7 @@ std::vector<RestDrive> read_rest_drives(study::ObjectReader& document, const Lin
 void refuse_loads_over_time(study::ObjectReader& document, const Linkage& l) {
   const auto refuse = [&](const char* list, const auto& loads) {
     for (const auto& load : loads)
-      if (load.factor.against == LoadArgument::time)
+      if (goes_by(load, LoadArgument::time))
         document.error(
             "mechanism",
             fmt::format("{} '{}' goes by time, and nothing rests while loads change", list, load.name),

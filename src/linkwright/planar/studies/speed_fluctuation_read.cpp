@@ -46,7 +46,7 @@ study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::
                    "take kind = \"simulation\" for others");
   const auto by_time = [&](const char* list, const auto& loads) {
     for (const auto& load : loads)
-      if (load.factor.against == LoadArgument::time)
+      if (goes_by(load, LoadArgument::time))
         document.error("mechanism",
                        fmt::format("{} '{}' goes by time, which a cycle does not have", list, load.name),
                        "let it go by input");
@@ -54,6 +54,11 @@ study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::
   by_time("force", l.forces);
   by_time("torque", l.torques);
   by_time("strut", l.struts);
+  if (const std::string load = load_by_joint(l); !load.empty() && !l.counted_pins.empty())
+    document.error(
+        "mechanism",
+        fmt::format("the formula of '{}' names the angle of a pin, which rises from cycle to cycle", load),
+        "let it go by the places of points, x(\"body.point\"), or by a table with against = \"input\"");
   if (!l.stops.empty())
     document.error("mechanism", "the joints of a cycle have no stops",
                    "leave them out, or take kind = \"simulation\"");
@@ -63,7 +68,7 @@ study::Prepared prepare_fluctuation(study::ObjectReader& document, const study::
   prepared.canonical["drive"] = Value(Value::Array{std::move(drive)});
   prepared.canonical["speed_fluctuation"] = study::write_fields(s.setup);
   s.has_motor = std::any_of(l.torques.begin(), l.torques.end(),
-                            [](const BodyTorque& t) { return t.factor.against == LoadArgument::speed; });
+                            [](const BodyTorque& t) { return goes_by(t, LoadArgument::speed); });
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);

@@ -42,6 +42,8 @@ class Simulation {
   // Events of friction come after those of change points, and those of stops after them.
   std::size_t first_friction_event() const { return stops_at_changes() ? 2 : 0; }
   std::size_t first_stop_event() const { return first_friction_event() + 2 * rubbing_.size(); }
+  // Events of stops are followed by the kinks of formulas, and these by what is watched.
+  std::size_t first_kink_event() const { return first_stop_event() + contacts_.size(); }
 
   // ---- state: values and rates of the free inputs, work -------------------------------------------------
 
@@ -204,6 +206,11 @@ class Simulation {
   void hold_on_stops(double t, std::span<double> y);
   void note_stop(StopEvent event);
 
+  // ---- formulas -----------------------------------------------------------------------------------------
+
+  void kink_values(double t, std::span<const double> y, std::span<double> values);
+  math::OdeAction kink_event(double t);
+
   // ---- end ----------------------------------------------------------------------------------------------
 
   void finish(const math::OdeReport& ode, std::span<const double> y);
@@ -255,7 +262,10 @@ class Simulation {
   std::vector<Contact> contacts_;  // one a stop
   double stopped_at_ = -infinity;  // last event of a stop, s
   int stops_at_once_ = 0;
-  int pressed_ = -1;  // stop on which a drive presses
+  int pressed_ = -1;                    // stop on which a drive presses
+  std::vector<double> kinks_of_loads_;  // last values, one a place at which a formula may jump or bend
+  double kinked_at_ = -infinity;        // s
+  int kinks_at_once_ = 0;
   Status last_status_ = Status::done;
   int failed_group_ = -1;
   SimulationReport report_;
