@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "linkwright/app/catalogue.h"
 #include "linkwright/core/npy.h"
 #include "tests/study/sample_kind.h"
 
@@ -124,6 +125,21 @@ TEST_F(Run, WritesWhatTheStudyAsksFor) {
             "0.4,done\r\n");
   // Nothing is left of the temporary files.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep/out"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Run, SolidsAreFilesOfTheResult) {
+  kinds_.assign(catalogue().begin(), catalogue().end());
+  write("s.toml", find_kind("analysis/planar.four_bar", kinds_, diagnostics_)->example);
+  const auto study = load({.out = {}, .seed = {}, .set = {"output.formats=['step']"}});
+  ASSERT_TRUE(study) << message();
+  RunContext context;
+  const RunOutcome outcome = run_and_record(*study, context);
+  ASSERT_EQ(outcome.result.files.size(), outcome.result.scenes.size());
+  EXPECT_EQ(outcome.result.files.at(0).name, "motion.step");
+  EXPECT_TRUE(outcome.result.files[0].text.starts_with("ISO-10303-21;"));
+  ASSERT_TRUE(prepare_folder(folder_ / "out", diagnostics_));
+  EXPECT_EQ(write_results(*study, outcome, folder_ / "out", diagnostics_),
+            std::vector<fs::path>{folder_ / "out/motion.step"});
 }
 
 TEST_F(Run, WhatAKilledRunHasLeftIsRemoved) {

@@ -157,6 +157,16 @@ bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
   return problem.empty();
 }
 
+namespace {
+/// The links of each solution as files for CAD.
+void add_solids(const study::Study& study, study::Result& result) {
+  const study::PartSizes sizes = study.common.output.parts.value_or(study::PartSizes{});
+  for (const study::Scene& scene : result.scenes)
+    if (std::string solids = report::step(scene, sizes); !solids.empty())
+      result.files.push_back({scene.name + ".step", std::move(solids)});
+}
+}  // namespace
+
 RunOutcome run_and_record(const study::Study& study, RunContext& context, std::size_t max_rows) {
   RunOutcome outcome;
   outcome.max_rows = max_rows;
@@ -165,6 +175,7 @@ RunOutcome run_and_record(const study::Study& study, RunContext& context, std::s
   outcome.record.host = platform::host_name();
   outcome.record.threads = context.threads();
   outcome.result = study::run_study(study, context);
+  if (wants(study, study::Format::step)) add_solids(study, outcome.result);
   for (const Table& table : outcome.result.tables)
     if (table.rows() > max_rows) outcome.result.diagnostics.push_back(long_table_warning(table, max_rows));
   outcome.record.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
@@ -221,12 +232,6 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       write(scene.name + ".svg", report::svg(scene, {.length = report::chosen_length(units)}));
   if (wants(study, study::Format::dxf))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
-  if (wants(study, study::Format::step))
-    for (const study::Scene& scene : result.scenes)
-      if (const std::string solids =
-              report::step(scene, study.common.output.parts.value_or(study::PartSizes{}));
-          !solids.empty())
-        write(scene.name + ".step", solids);
   if (wants(study, study::Format::html)) write("report.html", report_text(study, shown, outcome, json));
   for (const study::ResultFile& file : result.files) write(file.name, file.text);
   for (std::size_t i = 0; i < result.solutions.size(); ++i) {
