@@ -45,6 +45,7 @@ NO_TEST = {
     "planar/drawing/detail/svg_file.h": "part of drawing, tested in drawing_test.cpp",
     "planar/drawing/detail/svg_path.h": "part of drawing, tested in drawing_test.cpp",
     "planar/drawing/detail/xml_tags.h": "part of drawing, tested in drawing_test.cpp",
+    "planar/sketch/detail/sketch_draft.h": "part of sketch, tested in sketch_test.cpp",
     "planar/sketch/detail/sketch_points.h": "part of sketch, tested in sketch_test.cpp",
     "planar/studies/any_machine_layouts.h": "part of the studies of planar.any, tested in any_machine_test.cpp",
     "planar/path/local_fit.h": "plain data; tested with the fitters that give it",

@@ -51,13 +51,14 @@ void print_reading(const planar::Sketch& sketch, bool has_unit) {
                     blocks = bodies(SketchBodyType::block), pins = count(sketch, planar::JointType::revolute),
                     slides = count(sketch, planar::JointType::prismatic),
                     welds = count(sketch, planar::JointType::fixed), wheels = bodies(SketchBodyType::wheel),
-                    gears = sketch.gears.size();
-  const std::string wheel_words = gears == 0 ? "" : fmt::format(", {} wheel{}", wheels, plural(wheels));
+                    gears = sketch.gears.size(), belts = sketch.belts.size();
+  const std::string belt_words = belts == 0 ? "" : fmt::format(", {} belt{}", belts, plural(belts));
+  const std::string wheel_words = wheels == 0 ? "" : fmt::format(", {} wheel{}", wheels, plural(wheels));
   const std::string gear_words = gears == 0 ? "" : fmt::format(", {} pair{} of gears", gears, plural(gears));
-  fmt::print("{} bar{}, {} plate{}, {} block{}{}, {}; {} pin{}, {} slide{}, {} weld{}{}\n", bars,
+  fmt::print("{} bar{}, {} plate{}, {} block{}{}, {}; {} pin{}, {} slide{}, {} weld{}{}{}\n", bars,
              plural(bars), plates, plural(plates), blocks, plural(blocks), wheel_words,
              bodies(SketchBodyType::ground) > 0 ? "the ground" : "no ground", pins, plural(pins), slides,
-             plural(slides), welds, plural(welds), gear_words);
+             plural(slides), welds, plural(welds), gear_words, belt_words);
 }
 
 /// The linkage of a drawing or of a file of the program Linkage; `has_unit` receives whether it says in which

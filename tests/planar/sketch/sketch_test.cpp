@@ -147,7 +147,7 @@ TEST(Sketches, LayersSayWhatLinesAre) {
   ASSERT_EQ(sketch.traced.size(), 1U);
   EXPECT_EQ(sketch.points[sketch.traced[0]].at, std::complex<double>(0.11, 0.115));
   ASSERT_EQ(sketch.left_out.size(), 1U);
-  EXPECT_THAT(sketch.left_out[0], HasSubstr("belts are not read from drawings"));
+  EXPECT_THAT(sketch.left_out[0], HasSubstr("no closed belt runs around (0, 0) mm"));
   complete(sketch);
   EXPECT_TRUE(sketch.questions.empty());
   EXPECT_EQ(sketch.points[driven_joint(sketch).point].at, std::complex<double>(0.22, 0));
@@ -230,6 +230,40 @@ TEST(Sketches, AWheelTurnsWithTheBarAtItsCentreThatDoesNotCarryIt) {
   EXPECT_EQ(sketch.left_out[0],
             "the wheels around (0, 0) mm and (150, 0) mm touch, but no link or ground has points at both "
             "centres");
+}
+
+TEST(Sketches, StrandsAroundCirclesAreBelts) {
+  const double radius = 20, apart = 200;
+  const std::vector<DrawnShape> pulleys = {circle({0, 0}, "ground"), circle({apart, 0}, "ground"),
+                                           wheel({0, 0}, radius, "belt"), wheel({apart, 0}, radius, "belt")};
+  const auto turns = [&](const std::vector<DrawnShape>& strands) {
+    std::vector<DrawnShape> shapes = pulleys;
+    shapes.insert(shapes.end(), strands.begin(), strands.end());
+    const Sketch sketch = sketched_linkage(shapes, tolerance);
+    EXPECT_EQ(sketch.belts.size(), 1U);
+    EXPECT_EQ(mobility(sketch), 1);
+    const study::Result result = test::run_text(completed_study(sketch));
+    EXPECT_EQ(result.status, Status::done);
+    return test::column(result, "sweep", "wheel_B_speed_rad_per_s").at(5) /
+           test::column(result, "sweep", "wheel_A_speed_rad_per_s").at(5);
+  };
+  EXPECT_NEAR(
+      turns({line({{0, radius}, {apart, radius}}, "belt"), line({{apart, -radius}, {0, -radius}}, "belt")}),
+      1, 1e-12);
+  // Crossed: the strands touch both circles from other sides.
+  const double sine = 2 * radius / apart, cosine = std::sqrt(1 - sine * sine);
+  const std::complex<double> out(radius * sine, radius * cosine);
+  EXPECT_NEAR(
+      turns({line({out, apart - out}, "belt"), line({std::conj(out), apart - std::conj(out)}, "belt")}), -1,
+      1e-12);
+  // Without one strand there is no belt.
+  std::vector<DrawnShape> open = pulleys;
+  open.push_back(line({{0, radius}, {apart, radius}}, "belt"));
+  open.push_back(line({{0, 70}, {apart, 70}}, "belt"));
+  const Sketch sketch = sketched_linkage(open, tolerance);
+  EXPECT_TRUE(sketch.belts.empty());
+  ASSERT_EQ(sketch.left_out.size(), 3U);
+  EXPECT_THAT(sketch.left_out[0], HasSubstr("does not touch two circles"));
 }
 
 TEST(Sketches, SeveralDrivesMakeAGrid) {

@@ -43,6 +43,8 @@ void fix(Sketch& sketch, const std::vector<std::size_t>& points) {
   for (SketchJoint& joint : sketch.joints) ++joint.first, ++joint.second;
   for (SketchGear& gear : sketch.gears)
     for (std::size_t& body : gear.bodies) ++body;
+  for (SketchBelt& belt : sketch.belts)
+    for (SketchPulley& pulley : belt.pulleys) ++pulley.body;
   std::vector<SketchJoint> pins;
   for (const std::size_t point : points)
     for (std::size_t body = 1; body < sketch.bodies.size(); ++body) {
@@ -65,6 +67,9 @@ double size_of(const Sketch& sketch, std::size_t index) {
   for (const SketchGear& gear : sketch.gears)
     for (std::size_t side = 0; side < 2; ++side)
       if (gear.bodies[side] == index) size = std::max(size, 2 * gear.radii[side]);
+  for (const SketchBelt& belt : sketch.belts)
+    for (const SketchPulley& pulley : belt.pulleys)
+      if (pulley.body == index) size = std::max(size, 2 * pulley.radius);
   return size;
 }
 
@@ -187,6 +192,19 @@ std::string text_of_gears(const Sketch& sketch) {
   return out;
 }
 
+std::string text_of_belts(const Sketch& sketch) {
+  std::string out;
+  for (const SketchBelt& belt : sketch.belts) {
+    out += fmt::format("\n[[mechanism.belt]]\nname   = \"{}\"\nwheels = [", belt.name);
+    for (const SketchPulley& pulley : belt.pulleys)
+      out +=
+          fmt::format("\n  {{ at = {}, radius_mm = {}{} }},", point_name(sketch, pulley.body, pulley.point),
+                      mm(pulley.radius), pulley.is_outside ? ", side = \"outside\"" : "");
+    out += "\n]\n";
+  }
+  return out;
+}
+
 /// The drives, and the range over which they move: of a single one that in which the linkage assembles, of
 /// several a turn of each.
 std::string text_of_drives(const Sketch& sketch) {
@@ -227,7 +245,8 @@ std::string sketch_study(const Sketch& sketch, const std::string& title) {
     out += comment(fmt::format("Open question: {} Assumed: {}.", question.text, question.assumed));
   for (const std::string& sentence : sketch.left_out) out += comment("Not read: " + sentence + ".");
   out += "schema = 1\nkind   = \"analysis\"\n\n[mechanism]\ntype  = \"planar.linkage\"\ndrawn = true\n";
-  out += text_of_bodies(sketch) + text_of_joints(sketch) + text_of_gears(sketch) + text_of_drives(sketch);
+  out += text_of_bodies(sketch) + text_of_joints(sketch) + text_of_gears(sketch) + text_of_belts(sketch) +
+         text_of_drives(sketch);
   for (const std::size_t point : sketch.traced)
     for (std::size_t body = 0; body < sketch.bodies.size(); ++body) {
       const SketchBody& b = sketch.bodies[body];

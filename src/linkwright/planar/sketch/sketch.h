@@ -58,6 +58,20 @@ struct SketchGear {
   double ratio = 0;  ///< rotation of the second wheel over that of the first, seen from what carries both
 };
 
+/// A pulley of a belt.
+struct SketchPulley {
+  std::size_t body = 0;     ///< index of the body that turns with it
+  std::size_t point = 0;    ///< index of its centre
+  double radius = 0;        ///< m
+  bool is_outside = false;  ///< the back of the belt runs over it
+};
+
+/// A closed belt of a sketch, by its pulleys in the order in which it runs.
+struct SketchBelt {
+  std::string name;  ///< "belt AB", by the centres
+  std::vector<SketchPulley> pulleys;
+};
+
 /// A joint that a drive moves.
 struct SketchDrive {
   std::size_t joint = 0;  ///< its index
@@ -76,6 +90,7 @@ struct Sketch {
   std::vector<SketchBody> bodies;
   std::vector<SketchJoint> joints;
   std::vector<SketchGear> gears;
+  std::vector<SketchBelt> belts;
   std::vector<SketchDrive> drives;
   std::vector<std::size_t> driven;        ///< indices of points on the layer "drive"
   std::vector<std::size_t> traced;        ///< indices of points on the layer "trace"
@@ -103,17 +118,19 @@ struct SketchAnswers {
 /// The number of joints of a type.
 std::size_t count(const Sketch& sketch, JointType type);
 
-/// The mobility by Gruebler's count: 3 (bodies - 1) - 2 (pins + slides) - 3 welds - pairs of gears.
+/// The mobility by Gruebler's count: 3 (bodies - 1) - 2 (pins + slides) - 3 welds - pairs of gears - (pulleys
+/// - 1) of each belt.
 int mobility(const Sketch& sketch);
 
 /// Ends, corners and circles of links in the largest drawing that is read as a linkage.
 inline constexpr std::size_t most_sketch_places = 2000;
 
 /// Reads the shapes of a drawing as a linkage. The layers (or groups of SVG) "ground", "slide", "gear",
-/// "drive", "trace" and "construction" say what their shapes are; shapes of other layers are links. Ends
-/// within the tolerance are one point, and those within ten times the tolerance, about which there is a
+/// "belt", "drive", "trace" and "construction" say what their shapes are; shapes of other layers are links.
+/// Ends within the tolerance are one point, and those within ten times the tolerance, about which there is a
 /// question. Circles of the layer "gear" that touch are a pair of gears, carried by the body that has points
-/// at both centres. The order of the shapes does not matter.
+/// at both centres; lines of the layer "belt" that touch its circles are the strands of closed belts. The
+/// order of the shapes does not matter.
 /// @param shapes shapes of the drawing
 /// @param tolerance largest distance of ends that meet (m)
 /// @param answers answers to questions that arise while it is read

@@ -42,13 +42,19 @@ void name_joints(Sketch& sketch) {
   }
 }
 
-void name_gears(Sketch& sketch) {
+void name_gears_and_belts(Sketch& sketch) {
   std::map<std::string, int> seen;
   for (SketchGear& gear : sketch.gears) {
     std::string name = "gear ";
     for (const std::size_t point : gear.points) name += sketch.points[point].name;
     const int times = ++seen[name];
     gear.name = times > 1 ? fmt::format("{} {}", name, times) : name;
+  }
+  for (SketchBelt& belt : sketch.belts) {
+    std::string name = "belt ";
+    for (const SketchPulley& pulley : belt.pulleys) name += sketch.points[pulley.point].name;
+    const int times = ++seen[name];
+    belt.name = times > 1 ? fmt::format("{} {}", name, times) : name;
   }
 }
 
@@ -147,7 +153,7 @@ std::optional<std::size_t> point_named(const Sketch& sketch, std::string_view na
 void name_sketch(Sketch& sketch) {
   name_bodies(sketch);
   name_joints(sketch);
-  name_gears(sketch);
+  name_gears_and_belts(sketch);
 }
 
 }  // namespace linkwright::planar::sketching

@@ -69,7 +69,7 @@ class Nodes {
 /// The point of a name; none if there is none.
 std::optional<std::size_t> point_named(const Sketch& sketch, std::string_view name);
 
-/// Names bodies by their points, joints after theirs and gears by their centres.
+/// Names bodies by their points, joints after theirs, gears and belts by their centres.
 void name_sketch(Sketch& sketch);
 
 }  // namespace linkwright::planar::sketching
