@@ -623,16 +623,10 @@ double Formula::of_one(const Step& step, double a) {
       return std::atan(a);
     case Code::root:
       return std::sqrt(a);
-    case Code::magnitude:
-      return std::abs(a);
     case Code::exponential:
       return std::exp(a);
     case Code::logarithm:
       return std::log(a);
-    case Code::sign:
-      return static_cast<double>((a > 0) - (a < 0));
-    case Code::whole:
-      return std::floor(a);
     default:
       return nan;
   }
@@ -648,14 +642,6 @@ double Formula::of_two(Code code, double a, double b) {
       return a * b;
     case Code::over:
       return a / b;
-    case Code::less:
-      return a < b;
-    case Code::less_equal:
-      return a <= b;
-    case Code::greater:
-      return a > b;
-    case Code::greater_equal:
-      return a >= b;
     case Code::equal:
       return a == b;
     case Code::both:
@@ -664,33 +650,9 @@ double Formula::of_two(Code code, double a, double b) {
       return a != 0 || b != 0;
     case Code::arc_tangent2:
       return std::atan2(a, b);
-    case Code::least:
-      return std::min(a, b);
-    case Code::greatest:
-      return std::max(a, b);
-    case Code::remainder:
-      return a - b * std::floor(a / b);
     default:
       return nan;
   }
-}
-
-double Formula::of_table(const Rows& rows, double a) {
-  const auto above = std::upper_bound(rows.argument.begin(), rows.argument.end(), a);
-  if (above == rows.argument.begin()) return std::isnan(a) ? nan : rows.value.front();
-  if (above == rows.argument.end()) return std::isnan(a) ? nan : rows.value.back();
-  const auto i = static_cast<std::size_t>(above - rows.argument.begin());
-  const double share = (a - rows.argument[i - 1]) / (rows.argument[i] - rows.argument[i - 1]);
-  return rows.value[i - 1] + share * (rows.value[i] - rows.value[i - 1]);
-}
-
-// The distance from the nearest row, with another sign in every other interval.
-double Formula::kink_of_table(const Rows& rows, double a) {
-  const auto above = std::upper_bound(rows.argument.begin(), rows.argument.end(), a);
-  double distance = infinity;
-  if (above != rows.argument.begin()) distance = a - *(above - 1);
-  if (above != rows.argument.end()) distance = std::min(distance, *above - a);
-  return (above - rows.argument.begin()) % 2 == 0 ? distance : -distance;
 }
 
 bool Formula::has_kink(Code code) {
@@ -712,10 +674,63 @@ bool Formula::has_kink(Code code) {
   }
 }
 
-double Formula::kink(Code code, double a, double b) {
-  if (code == Code::whole) return std::sin(pi * a);
-  if (code == Code::remainder) return std::sin(pi * a / b);
-  return code >= first_of_two ? a - b : a;
+double Formula::kink(const Step& s, double a, double b) const {
+  if (s.code == Code::whole) return std::sin(pi * a);
+  if (s.code == Code::remainder) return std::sin(pi * a / b);
+  if (s.code != Code::table) return s.code >= first_of_two ? a - b : a;
+  // The distance from the nearest row, with another sign in every other interval.
+  const std::vector<double>& x = tables_[s.index].argument;
+  const auto above = std::upper_bound(x.begin(), x.end(), a);
+  double distance = infinity;
+  if (above != x.begin()) distance = a - *(above - 1);
+  if (above != x.end()) distance = std::min(distance, *above - a);
+  return (above - x.begin()) % 2 == 0 ? distance : -distance;
+}
+
+// A whole number of floor and mod, the rows below the argument of a table, else the sign.
+double Formula::branch(const Step& s, double a, double b) const {
+  if (s.code == Code::whole) return std::floor(a);
+  if (s.code == Code::remainder) return std::floor(a / b);
+  if (s.code == Code::table) {
+    const std::vector<double>& x = tables_[s.index].argument;
+    return std::isnan(a) ? nan : static_cast<double>(std::upper_bound(x.begin(), x.end(), a) - x.begin());
+  }
+  const double difference = s.code >= first_of_two ? a - b : a;
+  return std::isnan(difference) ? nan : static_cast<double>((difference > 0) - (difference < 0));
+}
+
+double Formula::on_branch(const Step& s, double a, double b, double branch) const {
+  switch (s.code) {
+    case Code::magnitude:
+      return branch < 0 ? -a : a;
+    case Code::sign:
+    case Code::whole:
+      return branch;
+    case Code::least:
+      return std::isnan(branch) ? nan : branch <= 0 ? a : b;
+    case Code::greatest:
+      return std::isnan(branch) ? nan : branch >= 0 ? a : b;
+    case Code::less:
+      return branch < 0;
+    case Code::less_equal:
+      return branch <= 0;
+    case Code::greater:
+      return branch > 0;
+    case Code::greater_equal:
+      return branch >= 0;
+    case Code::remainder:
+      return a - b * branch;
+    case Code::table: {
+      if (std::isnan(a) || std::isnan(branch)) return nan;
+      const std::vector<double>&x = tables_[s.index].argument, &y = tables_[s.index].value;
+      const auto i = static_cast<std::size_t>(branch);
+      if (i == 0) return y.front();
+      if (i == x.size()) return y.back();
+      return y[i - 1] + (a - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+    }
+    default:
+      return nan;
+  }
 }
 
 std::size_t Formula::kinks() const {
@@ -723,7 +738,7 @@ std::size_t Formula::kinks() const {
       std::count_if(steps_.begin(), steps_.end(), [](const Step& s) { return has_kink(s.code); }));
 }
 
-double Formula::value(std::span<const double> values, double* kinks) const {
+double Formula::value(std::span<const double> values, Kinks at) const {
   // Each level of nesting keeps a value at each of its five sorts of signs, and two of a choice.
   std::array<double, 8 * max_depth> stack;
   std::size_t n = 0;
@@ -738,14 +753,15 @@ double Formula::value(std::span<const double> values, double* kinks) const {
       continue;
     }
     if (s.code >= first_of_two) --n;
-    const double a = stack[n - 1];
-    if (s.code == Code::table) {
-      if (kinks) *kinks++ = kink_of_table(tables_[s.index], a);
-      stack[n - 1] = of_table(tables_[s.index], a);
+    const double a = stack[n - 1], b = s.code >= first_of_two ? stack[n] : 0;
+    if (!has_kink(s.code)) {
+      stack[n - 1] = s.code >= first_of_two ? of_two(s.code, a, b) : of_one(s, a);
       continue;
     }
-    if (kinks && has_kink(s.code)) *kinks++ = kink(s.code, a, s.code >= first_of_two ? stack[n] : 0);
-    stack[n - 1] = s.code >= first_of_two ? of_two(s.code, a, stack[n]) : of_one(s, a);
+    const double found = branch(s, a, b);
+    if (at.kinks) *at.kinks++ = kink(s, a, b);
+    if (at.found) *at.found++ = found;
+    stack[n - 1] = on_branch(s, a, b, at.taken ? *at.taken++ : found);
   }
   return stack[0];
 }

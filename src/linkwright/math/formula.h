@@ -63,14 +63,22 @@ class Formula {
                                      const FormulaLookup& lookup = {});
 
   /// The value for the values of the names, in SI units: infinite or not a number where it has none.
-  double operator()(std::span<const double> values) const { return value(values, nullptr); }
+  double operator()(std::span<const double> values) const { return value(values, {}); }
 
   /// The number of places in the formula at which its value, or its slope, may jump: comparisons, abs, min,
   /// max, sign, floor, mod and tables.
   std::size_t kinks() const;
   /// A number for each of these places that changes its sign where the value or its slope jumps.
   void find_kinks(std::span<const double> values, std::span<double> kinks) const {
-    value(values, kinks.data());
+    value(values, {.kinks = kinks.data()});
+  }
+  /// The branch that the formula takes at each of these places.
+  void find_branches(std::span<const double> values, std::span<double> branches) const {
+    value(values, {.found = branches.data()});
+  }
+  /// The value on these branches, which go on smoothly beyond the places where they end.
+  double on_branches(std::span<const double> values, std::span<const double> branches) const {
+    return value(values, {.taken = branches.data()});
   }
 
   /// True if the value of a name matters, by its index.
@@ -126,11 +134,18 @@ class Formula {
     std::vector<double> argument, value;
   };
 
+  // What an evaluation notes of the kinks, and the branches that it takes; null: none, those of the values.
+  struct Kinks {
+    double* kinks = nullptr;
+    double* found = nullptr;
+    const double* taken = nullptr;
+  };
+
   static bool has_kink(Code code);
-  static double kink(Code code, double a, double b);
-  static double of_table(const Rows& rows, double a);
-  static double kink_of_table(const Rows& rows, double a);
-  double value(std::span<const double> values, double* kinks) const;
+  double kink(const Step& step, double a, double b) const;
+  double branch(const Step& step, double a, double b) const;
+  double on_branch(const Step& step, double a, double b, double branch) const;
+  double value(std::span<const double> values, Kinks kinks) const;
   static double of_one(const Step& step, double a);
   static double of_two(Code code, double a, double b);
 

@@ -201,8 +201,8 @@ samples = 101
     SCOPED_TRACE(law);
     const study::Result result = run_text(text(law));
     ASSERT_EQ(result.status, Status::done) << to_string(result.headline);
-    EXPECT_NEAR(column(result, "guide_displacement_m").back(), 0.1 - 0.7 * (1 - back), 1e-6);
-    EXPECT_NEAR(column(result, "guide_speed_m_per_s").back(), -0.7, 1e-6);
+    EXPECT_NEAR(column(result, "guide_displacement_m").back(), 0.1 - 0.7 * (1 - back), 1e-9);
+    EXPECT_NEAR(column(result, "guide_speed_m_per_s").back(), -0.7, 1e-9);
   }
 }
 

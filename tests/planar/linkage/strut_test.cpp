@@ -177,6 +177,30 @@ TEST(Strut, TablesGoByWhatTheySay) {
   EXPECT_EQ(damper.tables[0].find("lift_energy_J"), nullptr);
 }
 
+TEST(Strut, PressuresOfCylindersMayBeFormulas) {
+  const auto force = [](const std::string& pressures) {
+    return column(
+        run_text(bonnet(strut("cylinder = { bore_mm = 40, rod_mm = 25, " + pressures + " }"), sweep)),
+        "lift_force_N");
+  };
+  const double bore = pi / 4 * 0.04 * 0.04, ring = bore - pi / 4 * 0.025 * 0.025;
+  const std::vector<double> rising =
+      force("pressure_formula = 'table(q(\"O\"), 0 deg, 1 MPa, 10 deg, 3 MPa)', back_pressure_MPa = 0.4");
+  EXPECT_NEAR(rising[0], 1e6 * bore - 0.4e6 * ring, 1e-9);
+  EXPECT_NEAR(rising[5], 2e6 * bore - 0.4e6 * ring, 1e-9);
+  EXPECT_NEAR(rising[50], 3e6 * bore - 0.4e6 * ring, 1e-9);
+  const std::vector<double> back = force("pressure_MPa = 1, back_pressure_formula = '2 MPa * q(\"O\") / pi'");
+  EXPECT_NEAR(back[45], 1e6 * bore - 0.5e6 * ring, 1e-9);
+  const auto wrong = [](const std::string& pressures) {
+    return problems_of(bonnet(strut("cylinder = { bore_mm = 40, " + pressures + " }"), sweep));
+  };
+  EXPECT_THAT(wrong("rod_mm = 2"), HasSubstr("cylinder 'lift' has no pressure"));
+  EXPECT_THAT(wrong("pressure_MPa = 1, pressure_formula = '1 MPa'"),
+              HasSubstr("cylinder 'lift' has a pressure and a formula of it"));
+  EXPECT_THAT(wrong("pressure_formula = '1 N'"),
+              HasSubstr("mechanism.strut[0].cylinder: \"1 N\", column 1: is a force, and must be a stress"));
+}
+
 TEST(Strut, FormulasAreTheTablesThatTheyDescribe) {
   const auto analysed = [](const std::string& law) { return run_text(bonnet(strut(law), sweep)); };
   const study::Result gas_law = run_text(bonnet(gas, sweep)),
@@ -313,7 +337,7 @@ TEST(Strut, FormsCarryEveryLaw) {
   };
   add("constant").force = 3;
   add("gas").gas = GasSpringForm{900.0, 0.356, 0.08, 1.35};
-  add("cylinder").cylinder = CylinderForm{0.1, 0.05, 1e6, 1e5};
+  add("cylinder").cylinder = CylinderForm{.bore = 0.1, .rod = 0.05, .pressure = 1e6, .back_pressure = 1e5};
   add("formula").formula = "3 N + 2 N/mm * s";
   StrutForm& table = add("table");
   table.against = LoadArgument::time;

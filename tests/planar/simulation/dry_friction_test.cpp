@@ -203,6 +203,57 @@ TEST(DryFriction, TheOscillatorOfLeineSticksAndSlips) {
   EXPECT_LT(run.report.largest_drift, 1e-9);
 }
 
+// A block of 1 kg on a plane, whose coefficient falls from 0.5 at rest to 0.1 at 2 m/s: it speeds down as
+// dv/dt = -g (0.5 - 0.2 v), and stops after (1/k) ln(a / (a - k v0)) seconds.
+TEST(DryFriction, ATableOfCoefficientsGoesByTheSpeed) {
+  Linkage l = grounded({{"O", 0}});
+  l.bodies.push_back({.name = "block", .points = {{"O", 0}}});
+  l.bodies[1].mass = BodyMass{1, 0.01, 0};
+  l.joints.push_back({.name = "guide", .type = JointType::prismatic, .first = {0, 0}, .second = {1, 0}});
+  l.joints[0].friction_speeds = {0, 2, 4};
+  l.joints[0].friction_values = {0.5, 0.1, 0.1};
+  l.driven = {0};
+  EXPECT_EQ(friction_at_rest(l.joints[0]), 0.5);
+  EXPECT_DOUBLE_EQ(friction_coefficient(l.joints[0], 0.5), 0.4);
+  EXPECT_EQ(friction_coefficient(l.joints[0], 9), 0.1);
+  const LinkagePlan plan = planned(l);
+  const double g = 9.81, k = 0.2 * g, a = 0.5 * g, start = 1.5;
+  InputDrive drive;
+  drive.rate = start;
+  const SimulationReport report =
+      simulate(l, plan, std::vector{drive}, std::vector<double>{0, 1}, {}, [](const auto&) { return true; });
+  ASSERT_EQ(report.status, Status::at_rest) << to_string(report.message);
+  EXPECT_NEAR(report.time, std::log(a / (a - k * start)) / k, 1e-9);
+  l.joints[0].friction_speeds[0] = 0.1;
+  EXPECT_FALSE(plan_linkage(l).problems.empty());
+}
+
+// A block that a load in time would move on: the motion ends at its first rest where that is asked for.
+TEST(DryFriction, AMotionMayEndAtTheFirstRest) {
+  Linkage l = grounded({{"O", 0}});
+  l.bodies.push_back({.name = "block", .points = {{"O", 0}}});
+  l.bodies[1].mass = BodyMass{2, 0.01, 0};
+  l.joints.push_back(
+      {.name = "guide", .type = JointType::prismatic, .first = {0, 0}, .second = {1, 0}, .friction = 0.3});
+  l.driven = {0};
+  l.forces.push_back(
+      {.name = "pull", .point = {1, 0}, .force = 1, .factor = {LoadArgument::time, {1, 3}, {0, 20}}});
+  const LinkagePlan plan = planned(l);
+  InputDrive drive;
+  drive.rate = 1;
+  const auto ends = [&](bool at_rest) {
+    SimulationOptions options;
+    options.stop_at_rest = at_rest;
+    return simulate(l, plan, std::vector{drive}, std::vector<double>{0, 2.5}, options,
+                    [](const auto&) { return true; });
+  };
+  const SimulationReport stopped = ends(true), on = ends(false);
+  EXPECT_EQ(stopped.status, Status::at_rest);
+  EXPECT_NEAR(stopped.time, 1 / (0.3 * 9.81), 1e-9);
+  EXPECT_EQ(on.status, Status::done);
+  EXPECT_EQ(on.time, 2.5);
+}
+
 TEST(DryFriction, ABeltWithStribeckFriction) {
   Belt belt = mass_on_belt(1, 25, 0.15, 0);
   Linkage& l = belt.linkage;

@@ -48,6 +48,35 @@ TEST(RestConfigurations, DoublePendulumHasThePublishedFour) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(r.found[i].kind, RestKind::unstable);
 }
 
+// The upper link lies on a stop at -60 degrees, from which the lower one hangs as a pendulum; with a stop of
+// the lower one as well nothing is left to move. Moments about the joints give the efforts of the stops.
+TEST(RestConfigurations, StopsHoldFreeJoints) {
+  Linkage l = two_links(0.5, 1, 1);
+  l.stops.push_back({.joint = 0, .limit = -pi / 3, .side = 1});
+  const RestConfigurations r = rest_configurations(l, planned(l), {.inputs = {0, 0}, .free = {0, 1}});
+  ASSERT_EQ(r.status, Status::done);
+  const RestConfiguration& lowest = r.found.front();
+  EXPECT_EQ(lowest.kind, RestKind::stable);
+  EXPECT_NEAR(lowest.values[0], -pi / 3, 1e-12);
+  EXPECT_NEAR(lowest.values[1], -pi / 6, 1e-9);
+  EXPECT_NEAR(lowest.stops[0], 2 * 9.81 * 0.25, 1e-9);
+  ASSERT_EQ(lowest.vibrations.size(), 1u);
+  EXPECT_NEAR(std::abs(lowest.vibrations[0]), std::sqrt(9.81 / 0.5), 1e-6);
+  // Nothing rests beyond the stop, and no stop pulls.
+  for (const RestConfiguration& c : r.found) {
+    EXPECT_GE(c.values[0], -pi / 3 - 1e-9);
+    EXPECT_GE(c.stops[0], 0);
+  }
+  l.stops.push_back({.joint = 1, .limit = 0, .side = 1});
+  const RestConfigurations both = rest_configurations(l, planned(l), {.inputs = {0, 0}, .free = {0, 1}});
+  ASSERT_EQ(both.status, Status::done);
+  const RestConfiguration& straight = both.found.front();
+  EXPECT_EQ(straight.kind, RestKind::at_end);
+  EXPECT_NEAR(straight.stops[0], 3 * 9.81 * 0.25, 1e-9);
+  EXPECT_NEAR(straight.stops[1], 9.81 * 0.25, 1e-9);
+  EXPECT_TRUE(straight.vibrations.empty());
+}
+
 // Ziegler's column: masses 2 m and m, equal springs k, lengths l; a force that turns with the upper link
 // makes it flutter from (7/2 - sqrt 2) k / l on.
 TEST(RestConfigurations, FollowingForceMakesAColumnFlutter) {

@@ -165,6 +165,17 @@ TEST(RestPositions, BonnetRestsWhereItsGasSpringCarriesIt) {
   for (const std::size_t i : {0u, 2u}) EXPECT_EQ(found.positions[i].kind, RestKind::at_end);
   EXPECT_NEAR(found.positions[0].force, number_at(bonnet, "computed.torque_at_0_N_m"), 1e-9);
   EXPECT_NEAR(found.positions[2].force, number_at(bonnet, "computed.torque_at_75_N_m"), 1e-9);
+  // With friction of its hinge it stays where it is left, in a band about the unstable position.
+  Linkage rubs = l;
+  rubs.joints[0].friction_effort = number_at(bonnet, "inputs.pivot_friction_N_m");
+  const std::vector<RestBand> bands = rest_bands(rubs, plan, found);
+  ASSERT_EQ(bands.size(), 1u);
+  const std::vector<double> edges = numbers(at(bonnet, "computed.hold_band_edges_deg"));
+  EXPECT_NEAR(math::degrees(bands[0].from), edges[0], 1e-8);
+  EXPECT_NEAR(math::degrees(bands[0].to), edges[1], 1e-8);
+  // Without friction a band is the position itself.
+  const std::vector<RestBand> none = rest_bands(l, plan, found);
+  EXPECT_TRUE(none.empty() || none[0].to - none[0].from < 1e-9);
   // Without a range the strokes of the gas spring end it; one of the pieces holds that of the car.
   const RestPositions whole = rest_positions(l, plan, {.inputs = {0}});
   ASSERT_EQ(whole.status, Status::done);
@@ -193,6 +204,51 @@ TEST(RestPositions, BalancedArmRestsAnywhere) {
   ASSERT_EQ(found.ranges.size(), 1u);
   EXPECT_TRUE(found.ranges[0].balanced);
   EXPECT_TRUE(found.positions.empty());
+}
+
+// A shallow truss: a spring of the length 0.5 m from (0.4, 0) to a block on a vertical slide. Pressed down,
+// it snaps where the length is the cube root of 0.5 m (0.4 m)^2.
+TEST(RestPositions, ALoadThatGrowsSnapsATruss) {
+  constexpr double side = 0.4, free = 0.5, stiffness = 2000;
+  Linkage l = grounded({{"O", 0}, {"S", side}});
+  l.gravity = 0;
+  l.bodies.push_back({.name = "block", .points = {{"B", 0}}});
+  l.bodies[1].mass = BodyMass{1, 0.01, 0};
+  l.joints.push_back({.name = "slide",
+                      .type = JointType::prismatic,
+                      .first = {0, 0},
+                      .second = {1, 0},
+                      .slide_first = pi / 2,
+                      .slide_second = pi / 2});
+  l.driven = {0};
+  l.springs.push_back({"spring", {0, 1}, {1, 0}, stiffness, free, 0});
+  const Linkage unloaded = l;
+  const double length = std::cbrt(free * side * side), height = std::sqrt(length * length - side * side),
+               critical = stiffness * (free / length - 1) * height;
+  const RestSearch search{.inputs = {0}, .range = {{-0.5, 0.5}}};
+  const auto path = [&](double load) {
+    l.forces = {{.name = "load", .point = {1, 0}, .force = {0, -load}}};
+    const LinkagePlan plan = planned(l);
+    const std::vector<LoadPath> all = load_paths(l, unloaded, plan, search, rest_positions(l, plan, search));
+    EXPECT_EQ(all.size(), 1u);
+    return all[0];
+  };
+  const double top = std::sqrt(free * free - side * side);
+  const LoadPath snaps = path(2 * critical);
+  ASSERT_EQ(snaps.ways.size(), 2u);
+  EXPECT_NEAR(snaps.ways[1].from, top, 1e-10);
+  EXPECT_TRUE(snaps.ways[1].snaps);
+  EXPECT_NEAR(snaps.ways[1].to, height, 1e-7);
+  EXPECT_NEAR(snaps.ways[1].factor, 0.5, 1e-12);
+  // From below it is pressed on without a fold.
+  EXPECT_NEAR(snaps.ways[0].from, -top, 1e-10);
+  EXPECT_FALSE(snaps.ways[0].snaps);
+  const LoadPath stays = path(0.5 * critical);
+  ASSERT_EQ(stays.ways.size(), 2u);
+  EXPECT_FALSE(stays.ways[1].snaps || stays.ways[1].leaves);
+  const double y = stays.ways[1].to;
+  EXPECT_NEAR(stiffness * (free / std::hypot(side, y) - 1) * y, 0.5 * critical, 1e-9);
+  EXPECT_GT(y, height);
 }
 
 // A torque that just carries a level rod: it touches zero there, and the rod falls to one side alone.

@@ -26,6 +26,31 @@ std::vector<std::string> names_of(const study::Result& r) {
   return out;
 }
 
+// The spring that carries an arm best: of zero free length it balances the arm everywhere (k a b = m g l); of
+// 80 mm a linear programme over 2001 angles has the least largest torque.
+TEST(BalancingStudyRead, ASpringCarriesAnArm) {
+  const auto balanced = [](const std::string& free_length) {
+    const std::string text =
+        replaced(replaced(test::example_text("counterbalance-arm.toml"), "= 201", "= 51"),
+                 "free_length_mm    = 80", "free_length_mm = " + free_length);
+    const study::Result result = run_text(text);
+    EXPECT_EQ(result.status, Status::done);
+    const std::vector<double>& torque = std::find_if(result.tables.begin(), result.tables.end(),
+                                                     [](const Table& t) { return t.name == "balanced"; })
+                                            ->find("O_drive_torque_N_m")
+                                            ->values;
+    double largest = 0;
+    for (const double t : torque) largest = std::max(largest, std::abs(t));
+    return std::pair{result.solutions.at(0).parameters.at(0).value, largest};
+  };
+  const auto [stiffness, torque] = balanced("80");
+  EXPECT_NEAR(stiffness, 669.3946957784931, 0.5);
+  EXPECT_NEAR(torque, 1.6674409570646116, 1e-3);
+  const auto [zero_length, nothing] = balanced("0");
+  EXPECT_NEAR(zero_length, 441.45, 1e-6);
+  EXPECT_NEAR(nothing, 0, 1e-9);
+}
+
 TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
   EXPECT_THAT(problems_of(replaced(test::linkage_weights, "quantity = \"shaking_force_N\"",
                                    "quantity = \"shaking_forc_N\"")),

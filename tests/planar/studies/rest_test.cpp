@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "planar/studies.h"
@@ -155,9 +157,31 @@ TEST(RestStudy, SeveralFreeJointsAreSearchedFromAGrid) {
   ASSERT_GE(stable.size(), 4u);
   EXPECT_EQ(column(result, "rest", "vibration_2_frequency_Hz").size(), stable.size());
   EXPECT_THAT(to_string(result.headline), HasSubstr("rest positions"));
+  const std::string stop = "[[mechanism.stop]]\njoint = \"B\"\nat_least_deg = 10\n[rest]";
+  const study::Result stopped = run_text(replaced(text, "[rest]", stop));
+  ASSERT_EQ(stopped.status, Status::done) << lines_of(stopped.diagnostics);
+  EXPECT_THAT(fact(stopped, "rest position 1"), HasSubstr("lower stop pushes with"));
   EXPECT_THAT(problems_of(replaced(text, "starts = 10", "starts = 2000")), HasSubstr("at most 1000"));
   EXPECT_THAT(problems_of(replaced(template_text(), "from_deg = -80.0", "from_deg = -80.0\nstarts = 9")),
               HasSubstr("they are for several free joints"));
+}
+
+TEST(RestStudy, TellsBandsOfFrictionAndPathsOfLoads) {
+  const study::Result bonnet = run_text(example_text("bonnet-gas-spring.toml")),
+                      truss = run_text(example_text("snap-through-truss.toml"));
+  EXPECT_THAT(fact(bonnet, "held by friction"), HasSubstr("from 22.709558\xC2\xB0 to 55.120136"));
+  EXPECT_EQ(column(bonnet, "bands", "from_rad").size(), 1u);
+  const double length = std::cbrt(0.5 * 0.4 * 0.4),
+               critical = 2 * 2000 * (0.5 / length - 1) * std::sqrt(length * length - 0.4 * 0.4);
+  const std::vector<double>&factor = column(truss, "load_path", "load_factor"),
+        &height = column(truss, "load_path", "guide_displacement_m");
+  double peak = 0;
+  for (std::size_t i = 0; i < height.size(); ++i)
+    if (height[i] > 0) peak = std::max(peak, factor[i]);
+  EXPECT_NEAR(peak, critical / 100, 1e-5);
+  EXPECT_THAT(fact(truss, "as the load grows"), HasSubstr("without load"));
+  EXPECT_THAT(problems_of(replaced(template_text(), "from_deg = -80.0", "from_deg = -80.0\nload = \"push\"")),
+              HasSubstr("push"));
 }
 
 TEST(RestStudy, WrongInputIsNamed) {

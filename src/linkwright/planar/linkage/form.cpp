@@ -146,8 +146,18 @@ Strut strut_of(const StrutForm& f, FormNames& names) {
     s.gas = GasSpring{f.gas->extended_force.value_or(1), f.gas->extended_length.value_or(1), f.gas->stroke,
                       f.gas->progression};
   }
-  if (f.cylinder)
-    s.cylinder = Cylinder{f.cylinder->bore, f.cylinder->rod, f.cylinder->pressure, f.cylinder->back_pressure};
+  if (f.cylinder) {
+    const CylinderForm& c = *f.cylinder;
+    if (c.pressure.has_value() == c.pressure_formula.has_value())
+      names.problem("cylinder",
+                    fmt::format("cylinder '{}' has {}", f.name,
+                                c.pressure ? "a pressure and a formula of it" : "no pressure"),
+                    "give one of pressure_MPa and pressure_formula");
+    if (c.back_pressure != 0 && c.back_pressure_formula)
+      names.problem("cylinder", fmt::format("cylinder '{}' has a back pressure and a formula of it", f.name),
+                    "leave one out");
+    s.cylinder = Cylinder{c.bore, c.rod, c.pressure.value_or(0), c.back_pressure};
+  }
   return s;
 }
 
@@ -156,8 +166,13 @@ StrutForm form_of(const Strut& s, std::string first, std::string second, bool ro
   if (s.gas) {
     f.gas = GasSpringForm{s.gas->extended_force, s.gas->extended_length, s.gas->stroke, s.gas->progression};
   } else if (s.cylinder) {
-    f.cylinder =
-        CylinderForm{s.cylinder->bore, s.cylinder->rod, s.cylinder->pressure, s.cylinder->back_pressure};
+    f.cylinder = CylinderForm{.bore = s.cylinder->bore, .rod = s.cylinder->rod};
+    if (s.formula) {
+      const std::vector<std::string> pressures = texts_of(*s.formula);
+      f.cylinder->pressure_formula = pressures[0], f.cylinder->back_pressure_formula = pressures[1];
+    } else {
+      f.cylinder->pressure = s.cylinder->pressure, f.cylinder->back_pressure = s.cylinder->back_pressure;
+    }
   } else if (s.formula) {
     f.formula = texts_of(*s.formula).front();
   } else if (s.factor.against == LoadArgument::constant) {
@@ -203,7 +218,7 @@ void set_friction(LinkageJoint& j, const JointForm& f, FormNames& names) {
     names.problem("friction_force_N",
                   fmt::format("joint '{}' is not a slide or slot, and has a friction force", f.name),
                   "a pin has a friction_torque");
-  if (j.screw && (f.friction_static || f.friction_force || f.stribeck_speed))
+  if (j.screw && (f.friction_static || f.friction_force || f.stribeck_speed || f.friction_table))
     names.problem("friction", fmt::format("screw '{}' has friction of a slide", f.name),
                   "the friction of its thread is `friction` alone");
   if (f.friction_static && *f.friction_static < f.friction)
@@ -218,6 +233,13 @@ void set_friction(LinkageJoint& j, const JointForm& f, FormNames& names) {
   if (f.friction_fall && !f.stribeck_speed)
     names.problem("friction_fall", fmt::format("joint '{}' has a curve of friction without a speed", f.name),
                   "give stribeck_speed");
+  if (const auto& table = f.friction_table) {
+    if (f.friction > 0 || f.stribeck_speed)
+      names.problem("friction_table", fmt::format("joint '{}' has a table and a curve of friction", f.name),
+                    "leave out friction and stribeck_speed");
+    j.friction_speeds = table->speed;
+    j.friction_values = table->coefficient;
+  }
   j.friction_static = f.friction_static.value_or(0);
   j.friction_effort = f.friction_torque.value_or(0) + f.friction_force.value_or(0);
   j.friction_speed = f.stribeck_speed.value_or(0);
@@ -365,10 +387,11 @@ void add_formulas(const LinkageForm& form, Linkage& l, FormNames& names) {
   using Kind = LoadQuantity::Kind;
   const LoadQuantity time{.kind = Kind::time};
   const auto read = [&](std::span<const std::string> texts, Dimension result,
-                        std::span<const NamedQuantity> known, const char* example) {
+                        std::span<const NamedQuantity> known, const char* example,
+                        const char* key = "formula") {
     std::string problem;
     auto formula = load_formula(l, texts, result, known, problem);
-    if (!formula) names.problem("formula", problem, fmt::format("write for example {}", example));
+    if (!formula) names.problem(key, problem, fmt::format("write for example {}", example));
     return formula;
   };
   for (std::size_t i = 0; i < form.forces.size(); ++i) {
@@ -395,15 +418,27 @@ void add_formulas(const LinkageForm& form, Linkage& l, FormNames& names) {
                      "'5 N*m - 0.2 N*m*s * rate(\"O\")'");
   }
   for (std::size_t i = 0; i < form.struts.size(); ++i) {
-    if (!form.struts[i].formula) continue;
+    const auto& cylinder = form.struts[i].cylinder;
+    const bool by_pressure = cylinder && (cylinder->pressure_formula || cylinder->back_pressure_formula);
+    if (!form.struts[i].formula && !by_pressure) continue;
     names.at("strut", i);
     Strut& s = l.struts[i];
     const NamedQuantity known[] = {
         {{"time", Dimension::time}, time},
         {{"s", Dimension::length}, {.kind = Kind::length, .first = s.first, .second = s.second}},
         {{"v", Dimension::speed}, {.kind = Kind::lengthening, .first = s.first, .second = s.second}}};
-    s.formula = read(std::array{*form.struts[i].formula}, Dimension::force, known,
-                     "\"200 N + 15 N/mm * (s - 20 mm)\"");
+    if (!by_pressure) {
+      s.formula = read(std::array{*form.struts[i].formula}, Dimension::force, known,
+                       "\"200 N + 15 N/mm * (s - 20 mm)\"");
+      continue;
+    }
+    const auto text = [](const std::optional<std::string>& formula, double constant) {
+      return formula.value_or(fmt::format("{} Pa", constant));
+    };
+    const std::array pressures{text(cylinder->pressure_formula, cylinder->pressure.value_or(0)),
+                               text(cylinder->back_pressure_formula, cylinder->back_pressure)};
+    s.formula =
+        read(pressures, Dimension::pressure, known, "\"table(time, 0 s, 0, 1 s, 12 MPa)\"", "cylinder");
   }
 }
 
@@ -554,6 +589,8 @@ LinkageForm form_of(const Linkage& l) {
     f.friction = j.screw ? j.screw->friction : j.friction, f.pin_radius = j.pin_radius,
     f.guide_length = j.guide_length;
     if (j.friction_static > 0) f.friction_static = j.friction_static;
+    if (!j.friction_values.empty())
+      f.friction_table = FrictionTableForm{j.friction_speeds, j.friction_values};
     if (j.friction_effort > 0)
       (j.type == JointType::revolute ? f.friction_torque : f.friction_force) = j.friction_effort;
     if (j.friction_speed > 0) {

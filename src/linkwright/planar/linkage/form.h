@@ -64,6 +64,9 @@ struct CurvedSlotForm {
   std::optional<Place> centre;
   std::optional<double> radius, from, to;
 };
+struct FrictionTableForm {
+  std::vector<double> speed, coefficient;
+};
 struct JointForm {
   std::string name;
   JointType type = JointType::revolute;
@@ -88,6 +91,7 @@ struct JointForm {
   std::optional<double> slot_angle;
   double friction = 0, pin_radius = 0, guide_length = 0;
   std::optional<double> friction_static, friction_torque, friction_force, stribeck_speed;
+  std::optional<FrictionTableForm> friction_table;
   std::optional<FrictionFall> friction_fall;
 };
 /// The side of a belt on which a wheel lies.
@@ -148,7 +152,10 @@ struct GasSpringForm {
   double stroke = 0, progression = 1;
 };
 struct CylinderForm {
-  double bore = 0, rod = 0, pressure = 0, back_pressure = 0;
+  double bore = 0, rod = 0;
+  std::optional<double> pressure;
+  double back_pressure = 0;
+  std::optional<std::string> pressure_formula, back_pressure_formula;
 };
 struct StrutForm {
   std::string name, first, second;
@@ -260,6 +267,14 @@ void fields(Visitor&& visit, BodyForm& b) {
   visit(field::entry("start", "approximate position of the body at the start"), b.start);
 }
 template <class Visitor>
+void fields(Visitor&& visit, FrictionTableForm& t) {
+  visit(field::speed("speed", "rising speeds of sliding from 0 on; of a pin at its rim").required(), t.speed);
+  visit(field::entry("mu", "coefficient of friction at each of them, straight lines between")
+            .not_negative()
+            .required(),
+        t.coefficient);
+}
+template <class Visitor>
 void fields(Visitor&& visit, RatioCurveForm& c) {
   visit(field::angle("first", "rising angles of the first wheel from the carrier, over a turn or a sector")
             .required(),
@@ -359,6 +374,9 @@ void friction_fields(Visitor& visit, JointForm& j) {
                      "rim; if absent it falls at once")
             .positive(),
         j.stribeck_speed);
+  visit(field::entry("friction_table",
+                     "coefficients over the speed of sliding, instead of `friction` and `stribeck_speed`"),
+        j.friction_table);
   visit(field::entry("friction_fall", "curve along which it falls with `stribeck_speed`; if absent stribeck"),
         j.friction_fall);
 }
@@ -512,10 +530,15 @@ template <class Visitor>
 void fields(Visitor&& visit, CylinderForm& c) {
   visit(field::length("bore", "diameter of its bore").positive().required(), c.bore);
   visit(field::length("rod", "diameter of its rod").not_negative(), c.rod);
-  visit(field::pressure("pressure", "pressure on the side of the bore, above that of the air").required(),
-        c.pressure);
+  visit(field::pressure("pressure", "pressure on the side of the bore, above that of the air"), c.pressure);
   visit(field::pressure("back_pressure", "pressure on the side of the rod, above that of the air"),
         c.back_pressure);
+  visit(field::entry(
+            "pressure_formula",
+            "instead of `pressure`, a formula as that of a strut: \"table(time, 0 s, 0, 1 s, 12 MPa)\""),
+        c.pressure_formula);
+  visit(field::entry("back_pressure_formula", "instead of `back_pressure`, likewise"),
+        c.back_pressure_formula);
 }
 template <class Visitor>
 void fields(Visitor&& visit, StrutForm& s) {
@@ -544,8 +567,7 @@ void fields(Visitor&& visit, StrutForm& s) {
           .not_negative(),
       s.period);
   visit(field::entry("gas", "gas spring, instead of a force or a table"), s.gas);
-  visit(field::entry("cylinder", "cylinder with constant pressures, instead of a force or a table"),
-        s.cylinder);
+  visit(field::entry("cylinder", "cylinder, instead of a force or a table"), s.cylinder);
   visit(
       field::entry(
           "formula",

@@ -26,7 +26,7 @@ struct Sliding {
 };
 
 double coefficient(const LinkageJoint& j, const Sliding& s) {
-  return s.sticks ? std::max(j.friction, j.friction_static) : friction_coefficient(j, s.speed);
+  return s.sticks ? friction_at_rest(j) : friction_coefficient(j, s.speed);
 }
 
 // Friction of a sliding joint, or what a sticking one can bear: N m of a pin or gear, N of a slide.
@@ -407,7 +407,21 @@ class Frictions {
 FrictionStates::FrictionStates(std::size_t joints)
     : senses(joints, nan), reserve(joints, 1.0), shares(joints, nan), normals(joints, nan) {}
 
+double friction_at_rest(const LinkageJoint& joint) {
+  const double least = joint.friction_values.empty() ? joint.friction : joint.friction_values.front();
+  return std::max(least, joint.friction_static);
+}
+
 double friction_coefficient(const LinkageJoint& joint, double speed) {
+  if (!joint.friction_values.empty()) {
+    const std::vector<double>&v = joint.friction_speeds, &mu = joint.friction_values;
+    const auto above = std::upper_bound(v.begin() + 1, v.end(), speed);
+    if (above == v.end()) return mu.back();
+    const auto i = static_cast<std::size_t>(above - v.begin());
+    // Just beyond a change of sense the first line goes on, see below.
+    const double share = (std::max(speed, -0.5 * v[1]) - v[i - 1]) / (v[i] - v[i - 1]);
+    return std::max(0.0, mu[i - 1] + share * (mu[i] - mu[i - 1]));
+  }
   if (joint.friction_speed == 0) return joint.friction;
   // Just beyond a change of sense the curve goes on smoothly, so that steps end at it as accurately as
   // elsewhere.

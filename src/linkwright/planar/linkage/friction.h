@@ -40,6 +40,12 @@ struct FrictionStates {
 /// @returns the coefficient
 double friction_coefficient(const LinkageJoint& joint, double speed);
 
+/// The coefficient of friction of a joint at rest.
+///
+/// @param joint the joint
+/// @returns the coefficient
+double friction_at_rest(const LinkageJoint& joint);
+
 /// Coulomb friction of all joints that slide: adds it to the loads of `forces`, which hold everything else
 /// that acts, and to the joint forces. `balance` finds these for the loads as they are; accelerations may
 /// change with them, as long as all of it is affine in the loads. After it has been called once.

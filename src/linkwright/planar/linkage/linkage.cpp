@@ -102,8 +102,8 @@ class Checker {
       error(key, "friction, pin radius and guide length must be finite and not negative", {});
     else if (has_friction(j) && (gear || rack || j.type == JointType::fixed))
       error(key, fmt::format("a {} joint has no friction", words_[static_cast<std::size_t>(j.type)]), {});
-    else if (std::max(j.friction, j.friction_static) > 0 && j.type == JointType::revolute &&
-             j.pin_radius == 0)
+    else if ((std::max(j.friction, j.friction_static) > 0 || !j.friction_values.empty()) &&
+             j.type == JointType::revolute && j.pin_radius == 0)
       error(key, "has friction but no pin radius: its torque would be zero",
             "give the radius of the pin, or a friction torque");
     if (!(j.friction_static >= 0 && j.friction_effort >= 0 && j.friction_speed >= 0 &&
@@ -116,6 +116,7 @@ class Checker {
             "friction_static is the larger of the two");
     else if (j.friction_speed > 0 && j.friction_static == 0)
       error(key, "its friction falls with the speed, but has no value at rest", "give friction_static");
+    if (!j.friction_values.empty() || !j.friction_speeds.empty()) friction_table(key, j);
     if (rack && !(std::isfinite(j.radius) && j.radius != 0))
       error(key, fmt::format("its pinion has the radius {}", j.radius),
             "give the distance of its centre from the pitch line, negative to the right of its direction");
@@ -244,6 +245,25 @@ class Checker {
                           words_[static_cast<std::size_t>(j.type)]),
               {});
     }
+  }
+  void friction_table(const std::string& key, const LinkageJoint& j) {
+    const std::vector<double>&v = j.friction_speeds, &mu = j.friction_values;
+    if (v.size() < 2 || v.size() != mu.size())
+      return error(
+          key, fmt::format("its table of friction has {} speeds and {} coefficients", v.size(), mu.size()),
+          "give at least two, and as many of both");
+    if (v.front() != 0 || std::adjacent_find(v.begin(), v.end(), std::greater_equal<>()) != v.end())
+      error(key, "the speeds of its table of friction do not rise from 0 on", "sort them, and begin with 0");
+    if (std::any_of(mu.begin(), mu.end(), [](double m) { return !(m >= 0 && std::isfinite(m)); }) ||
+        !std::isfinite(v.back()))
+      error(key, "its table of friction holds numbers that are negative or not finite", {});
+    if (j.friction > 0 || j.friction_speed > 0)
+      error(key, "it has a table and a curve of friction", "leave one out");
+    if (j.friction_static > 0 && j.friction_static < mu.front())
+      error(key,
+            fmt::format("its friction at rest, {}, is below the first of its table, {}", j.friction_static,
+                        mu.front()),
+            "friction_static is the larger of the two");
   }
   void factor(const std::string& key, const LoadFactor& f) {
     if (f.against == LoadArgument::constant) return;

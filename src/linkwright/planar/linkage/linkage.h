@@ -194,6 +194,10 @@ struct LinkageJoint {
   /// Speed with which the coefficient falls from that at rest to that of motion (m/s; of a pin at its rim);
   /// 0: it falls at once.
   double friction_speed = 0;
+  /// Speeds of sliding (m/s, from 0 on, rising) of a table of coefficients, instead of `friction` and of the
+  /// curve; straight lines between, and the last value beyond. `friction_static` is not below the first one.
+  std::vector<double> friction_speeds = {};
+  std::vector<double> friction_values = {};             ///< coefficients at these speeds
   FrictionFall friction_fall = FrictionFall::stribeck;  ///< curve along which the coefficient falls
 };
 
@@ -371,8 +375,8 @@ struct GasSpring {
   double progression = 1;      ///< force at the end of the stroke as a multiple of the extended one, >= 1
 };
 
-/// A cylinder with constant pressures: pushes with pressure times the area of its bore, less back pressure
-/// times the area about its rod.
+/// A cylinder: pushes with pressure times the area of its bore, less back pressure times the area about its
+/// rod. Its pressures are constant, or those of the two formulas of its strut.
 struct Cylinder {
   double bore = 0;           ///< m, > rod
   double rod = 0;            ///< m, >= 0
@@ -390,7 +394,7 @@ struct Strut {
   LoadFactor factor;                      ///< factor of the force
   std::optional<GasSpring> gas = {};      ///< law of a gas spring instead
   std::optional<Cylinder> cylinder = {};  ///< law of a cylinder instead
-  /// Formula of the force instead.
+  /// Formula of the force instead; two of the pressures of a cylinder.
   std::shared_ptr<const LoadFormula> formula = {};
 };
 
@@ -533,7 +537,8 @@ std::string stop_name(const Linkage& linkage, std::size_t stop);
 /// @param joint the joint
 /// @returns true if it has
 inline bool has_friction(const LinkageJoint& joint) {
-  return joint.friction > 0 || joint.friction_static > 0 || joint.friction_effort > 0;
+  return joint.friction > 0 || joint.friction_static > 0 || joint.friction_effort > 0 ||
+         !joint.friction_values.empty();
 }
 
 /// True if a joint loses power: by friction, or by the efficiency of a gear.

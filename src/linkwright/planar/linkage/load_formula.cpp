@@ -175,6 +175,7 @@ std::shared_ptr<const LoadFormula> load_formula(Linkage& l, std::span<const std:
     words.push_back(k.name);
     out->quantities.push_back(k.quantity);
   }
+  for_formulas(l, [&out](const auto& load) { out->first_kink += kinks_of(*load.formula); });
   QuantityReader reader(l, out->quantities);
   math::FormulaLookup lookup;
   for (const QuantityWord& w : quantity_words) lookup.functions.push_back(w.word);
@@ -214,7 +215,14 @@ std::array<double, 2> values_of(const LoadFormula& f, const Linkage& l, const Li
   QuantityValues memory;
   const std::span<const double> values = fill(f, l, plan, motion, time, memory);
   std::array<double, 2> out{};
-  for (std::size_t i = 0; i < f.components.size(); ++i) out[i] = f.components[i](values);
+  std::size_t kink = f.first_kink;
+  for (std::size_t i = 0; i < f.components.size(); ++i) {
+    const math::Formula& c = f.components[i];
+    out[i] = motion.branches.empty()
+                 ? c(values)
+                 : c.on_branches(values, std::span(motion.branches).subspan(kink, c.kinks()));
+    kink += c.kinks();
+  }
   return out;
 }
 
@@ -222,6 +230,16 @@ std::size_t kinks_of(const LoadFormula& formula) {
   std::size_t sum = 0;
   for (const math::Formula& f : formula.components) sum += f.kinks();
   return sum;
+}
+
+void find_branches(const LoadFormula& f, const Linkage& l, const LinkagePlan& plan,
+                   const LinkageMotion& motion, double time, std::span<double> branches) {
+  QuantityValues memory;
+  const std::span<const double> values = fill(f, l, plan, motion, time, memory);
+  for (const math::Formula& c : f.components) {
+    c.find_branches(values, branches.first(c.kinks()));
+    branches = branches.subspan(c.kinks());
+  }
 }
 
 void find_kinks(const LoadFormula& f, const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,

@@ -96,6 +96,9 @@ class LinkageMotion {
   /// stops that give way 1 where they are touched, else 0. The loads of the linkage have them. Empty: rigid
   /// stops have none, and the others go by their gaps.
   std::vector<double> stops;
+  /// Branches of the formulas of loads on which they go on smoothly, as those who follow a motion leave them,
+  /// see LoadFormula::first_kink. Empty: those of the present motion.
+  std::vector<double> branches;
   /// Angles with their turns (rad) of the parts that loops turn and gears follow, see DrivenAngle::shares;
   /// one a part, NaN before the first position and of other parts.
   std::vector<double> loop_angles;

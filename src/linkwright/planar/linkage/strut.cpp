@@ -18,9 +18,10 @@ double area(double diameter) { return pi / 4 * diameter * diameter; }
 double gas_force(const GasSpring& g, double length) {
   return g.extended_force * (1 + (g.progression - 1) * (g.extended_length - length) / g.stroke);
 }
-double cylinder_force(const Cylinder& c) {
-  return c.pressure * area(c.bore) - c.back_pressure * (area(c.bore) - area(c.rod));
+double cylinder_force(const Cylinder& c, double pressure, double back_pressure) {
+  return pressure * area(c.bore) - back_pressure * (area(c.bore) - area(c.rod));
 }
+double cylinder_force(const Cylinder& c) { return cylinder_force(c, c.pressure, c.back_pressure); }
 
 // The integral of a table of factors over its argument from its first row; beyond its ends it is held.
 double factor_integral(const LoadFactor& f, double argument) {
@@ -56,8 +57,11 @@ Span span_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& mot
 double push_of(const Strut& s, const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                const Span& span, double time, double input) {
   if (s.gas) return gas_force(*s.gas, span.length);
+  if (s.formula) {
+    const std::array<double, 2> values = values_of(*s.formula, l, plan, motion, time);
+    return s.cylinder ? cylinder_force(*s.cylinder, values[0], values[1]) : values[0];
+  }
   if (s.cylinder) return cylinder_force(*s.cylinder);
-  if (s.formula) return values_of(*s.formula, l, plan, motion, time)[0];
   const bool turns = !plan.rotary.empty() && plan.rotary[0];
   switch (s.factor.against) {
     case LoadArgument::input:

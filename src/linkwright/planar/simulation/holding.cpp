@@ -25,8 +25,9 @@ void HoldingForces::set_friction(double factor) {
   for (std::size_t j = 0; j < l_.joints.size(); ++j) {
     const LinkageJoint& j0 = original_.joints[j];
     // About to move, a joint has its friction at rest.
-    l_.joints[j].friction = factor * std::max(j0.friction, j0.friction_static);
+    l_.joints[j].friction = factor * friction_at_rest(j0);
     l_.joints[j].friction_static = l_.joints[j].friction_speed = 0;
+    l_.joints[j].friction_speeds.clear(), l_.joints[j].friction_values.clear();
     l_.joints[j].friction_effort = factor * j0.friction_effort;
     if (j0.efficiency < 1)
       l_.joints[j].efficiency = std::max(least_efficiency, 1 - factor * (1 - j0.efficiency));
@@ -157,8 +158,9 @@ class StuckLinkage {
   double share(double size, double factor) {
     for (std::size_t j = 0; j < l_.joints.size(); ++j) {
       const LinkageJoint& joint = original_.joints[j];
-      l_.joints[j].friction = factor * joint.friction;
-      l_.joints[j].friction_static = factor * joint.friction_static;
+      l_.joints[j].friction = factor * friction_at_rest(joint);  // nothing moves
+      l_.joints[j].friction_static = l_.joints[j].friction_speed = 0;
+      l_.joints[j].friction_speeds.clear(), l_.joints[j].friction_values.clear();
       l_.joints[j].friction_effort = factor * joint.friction_effort;
     }
     l_.forces[load_].force = size * (original_.forces[load_].force / std::abs(original_.forces[load_].force));

@@ -247,13 +247,9 @@ int starts_along(std::size_t free, int asked) {
   return free <= std::size(few) ? few[free - 1] : 3;
 }
 
-}  // namespace
-
-RestConfigurations rest_configurations(const Linkage& linkage, const LinkagePlan& plan, const RestGrid& grid,
-                                       const RunContext* context) {
-  LINKWRIGHT_REQUIRE(plan.closed_form() && grid.inputs.size() == plan.inputs() && !grid.free.empty(),
-                     "{} values and {} free inputs of a linkage with {} inputs, which needs closed forms",
-                     grid.inputs.size(), grid.free.size(), plan.inputs());
+// The search without rigid stops.
+RestConfigurations open_search(const Linkage& linkage, const LinkagePlan& plan, const RestGrid& grid,
+                               const RunContext* context) {
   RestConfigurations out;
   RestNewton newton(linkage, plan, grid);
   const std::size_t n = newton.count();
@@ -282,6 +278,121 @@ RestConfigurations rest_configurations(const Linkage& linkage, const LinkagePlan
     return a.potential != b.potential ? a.potential < b.potential : a.values < b.values;
   });
   if (out.status == Status::done && !assembled) out.status = Status::no_assembly;
+  return out;
+}
+
+// A linkage with rigid stops on its free inputs: each of these is free, or held by one of its stops.
+class StoppedSearch {
+ public:
+  StoppedSearch(const Linkage& linkage, const RestGrid& grid) : l_(linkage), open_(linkage), grid_(grid) {
+    std::erase_if(open_.stops, [](const JointStop& s) { return !s.stiffness; });
+    PlanResult planned = plan_linkage(open_);
+    LINKWRIGHT_REQUIRE(planned.problems.empty(), "the linkage cannot be planned without its {} stops",
+                       l_.stops.size());
+    plan_ = std::move(planned.plan);
+    stops_.resize(grid.free.size());
+    for (std::size_t k = 0; k < l_.stops.size(); ++k) {
+      if (l_.stops[k].stiffness) continue;
+      std::size_t j = 0;
+      while (j < grid.free.size() && l_.driven[grid.free[j]] != l_.stops[k].joint) ++j;
+      LINKWRIGHT_REQUIRE(j < grid.free.size(), "stop {} is rigid, and its joint is not a free input", k);
+      stops_[j].push_back(k);
+    }
+  }
+
+  RestConfigurations run(const RunContext* context) {
+    RestConfigurations out{.status = Status::no_assembly};
+    std::vector<int> held(stops_.size(), -1);  // index into the stops of the input; -1: free
+    for (bool going_on = true; going_on;) {
+      const RestConfigurations part = search_held(held, context);
+      out.starts += part.starts;
+      if (part.status == Status::done || out.status == Status::no_assembly) out.status = part.status;
+      for (const RestConfiguration& c : part.found)
+        if (auto rest = completed(c, held)) out.found.push_back(*std::move(rest));
+      if (part.status != Status::done && part.status != Status::no_assembly) break;
+      std::size_t j = 0;
+      while (j < held.size() && ++held[j] == static_cast<int>(stops_[j].size())) held[j++] = -1;
+      going_on = j < held.size();
+    }
+    std::sort(out.found.begin(), out.found.end(), [](const RestConfiguration& a, const RestConfiguration& b) {
+      return a.potential != b.potential ? a.potential < b.potential : a.values < b.values;
+    });
+    return out;
+  }
+
+ private:
+  const JointStop& stop(std::size_t input, int which) const { return l_.stops[stops_[input][at(which)]]; }
+
+  RestConfigurations search_held(const std::vector<int>& held, const RunContext* context) {
+    RestGrid grid{.inputs = grid_.inputs, .free = {}, .starts = grid_.starts};
+    for (std::size_t j = 0; j < held.size(); ++j)
+      if (held[j] < 0)
+        grid.free.push_back(grid_.free[j]);
+      else
+        grid.inputs[grid_.free[j]] = stop(j, held[j]).limit;
+    if (!grid.free.empty()) return open_search(open_, plan_, grid, context);
+    StaticForces forces(open_, plan_, grid_.free);
+    RestConfigurations out{.starts = 1};
+    out.status = forces.solve(grid.inputs) == Status::done ? Status::done : Status::no_assembly;
+    if (out.status == Status::done)
+      out.found.push_back({.kind = RestKind::at_end, .potential = forces.potential()});
+    return out;
+  }
+
+  // With the values of all free inputs and the efforts of the stops; nothing where a stop would have to pull,
+  // or another one is passed.
+  std::optional<RestConfiguration> completed(const RestConfiguration& found, const std::vector<int>& held) {
+    constexpr double near = 1e-9;
+    RestConfiguration out = found;
+    std::vector<double> all = grid_.inputs;
+    out.values.clear();
+    std::size_t next = 0;
+    for (std::size_t j = 0; j < held.size(); ++j) {
+      double value = held[j] < 0 ? found.values[next++] : stop(j, held[j]).limit;
+      const bool rotary = plan_.rotary[grid_.free[j]];
+      const auto passes = [&](double v) {
+        return std::any_of(stops_[j].begin(), stops_[j].end(), [&](std::size_t k) {
+          return l_.stops[k].side * (v - l_.stops[k].limit) < -near * (rotary ? 1 : plan_.size);
+        });
+      };
+      // Angles that were found may be a turn away from the range between two stops.
+      if (rotary && held[j] < 0 && stops_[j].size() == 2 && passes(value))
+        value += passes(value + full_turn) ? -full_turn : full_turn;
+      if (passes(value)) return std::nullopt;
+      all[grid_.free[j]] = value;
+      out.values.push_back(value);
+    }
+    StaticForces forces(open_, plan_, grid_.free);
+    if (forces.solve(all) != Status::done) return std::nullopt;
+    out.stops.assign(l_.stops.size(), 0.0);
+    for (std::size_t j = 0; j < held.size(); ++j) {
+      if (held[j] < 0) continue;
+      const double effort = -stop(j, held[j]).side * forces.force[j];
+      if (!(effort > near * forces.scale)) return std::nullopt;
+      out.stops[stops_[j][at(held[j])]] = effort;
+    }
+    return out;
+  }
+
+  const Linkage& l_;
+  Linkage open_;  // without rigid stops
+  LinkagePlan plan_;
+  const RestGrid& grid_;
+  std::vector<std::vector<std::size_t>> stops_;  // of each free input: its rigid stops
+};
+
+}  // namespace
+
+RestConfigurations rest_configurations(const Linkage& linkage, const LinkagePlan& plan, const RestGrid& grid,
+                                       const RunContext* context) {
+  LINKWRIGHT_REQUIRE(plan.closed_form() && grid.inputs.size() == plan.inputs() && !grid.free.empty(),
+                     "{} values and {} free inputs of a linkage with {} inputs, which needs closed forms",
+                     grid.inputs.size(), grid.free.size(), plan.inputs());
+  const bool is_stopped = std::any_of(linkage.stops.begin(), linkage.stops.end(),
+                                      [](const JointStop& s) { return !s.stiffness; });
+  if (is_stopped) return StoppedSearch(linkage, grid).run(context);
+  RestConfigurations out = open_search(linkage, plan, grid, context);
+  for (RestConfiguration& c : out.found) c.stops.assign(linkage.stops.size(), 0.0);
   return out;
 }
 

@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 
 /// A rest position of a linkage with several free inputs. Matrices are those of small motions about it,
-/// M q'' + C q' + K q = 0, row by row in the order of the free inputs.
+/// M q'' + C q' + K q = 0, row by row in the order of the free inputs that no stop holds.
 struct RestConfiguration {
   RestKind kind = RestKind::stable;  ///< its stability
   std::vector<double> values;        ///< of the free inputs, rad or m
@@ -21,6 +21,8 @@ struct RestConfiguration {
   std::vector<std::complex<double>>
       vibrations;        ///< eigenvalues with an imaginary part above 0, slowest first, 1/s
   double potential = 0;  ///< of weight, springs and struts, J
+  /// Efforts of the stops of the linkage (N m or N): more than 0 of a rigid one that holds its joint, else 0.
+  std::vector<double> stops;
 };
 
 /// Rest positions that a search has found.
@@ -41,9 +43,12 @@ struct RestGrid {
 /// from a grid of starts, a turn of each angle and four sizes of the linkage to each side of each
 /// displacement, with those that are known removed by deflation. A search cannot say that it has found all.
 /// Where the stiffness is symmetric it decides on the stability; else, with loads that turn with a body, the
-/// eigenvalues of the small motions do: one that grows and swings is flutter.
+/// eigenvalues of the small motions do: one that grows and swings is flutter. On rigid stops the linkage
+/// rests where each stop that holds its joint pushes; it is at the end of its range (RestKind::at_end) where
+/// stops hold all free inputs.
 ///
-/// @param linkage the linkage, with masses and loads that do not depend on time
+/// @param linkage the linkage, with masses and loads that do not depend on time; rigid stops are on free
+/// inputs
 /// @param plan its plan, in closed form
 /// @param grid the choices
 /// @param context cancellation and deadline; null: none

@@ -10,6 +10,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/stop.h"
+#include "linkwright/planar/simulation/holding.h"
 #include "linkwright/planar/simulation/static_forces.h"
 
 namespace linkwright::planar {
@@ -218,6 +219,92 @@ std::optional<std::array<double, 2>> between_stops(const Linkage& l, const Linka
   return {{low, high}};
 }
 
+// The forces with and without a load along a range of the free input.
+class LoadPathScan {
+ public:
+  LoadPathScan(const Linkage& linkage, const Linkage& unloaded, const LinkagePlan& plan,
+               const RestSearch& search, LinkageAssembly* assembly)
+      : with_(linkage, plan, {search.free}, assembly),
+        without_(unloaded, plan, {search.free}, assembly),
+        free_(search.free),
+        values_(search.inputs) {}
+
+  LoadPath run(const RestRange& range) {
+    for (StaticForces* forces : {&with_, &without_})
+      if (!range.modes.empty()) forces->motion.modes = range.modes;
+    LoadPath out{.value = range.value};
+    std::vector<double> work;
+    for (const double value : range.value) {
+      out.factor.push_back(factor(value));
+      work.push_back(work_);
+    }
+    const std::size_t n = out.value.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, n - 1);
+      // By the derivative of Q + f W = 0 along the path the stiffness is W df/dq.
+      out.stable.push_back((out.factor[b] - out.factor[a]) * work[i] > 0 ? 1 : 0);
+    }
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      if (out.factor[i] * out.factor[i + 1] <= 0 && out.factor[i + 1] != 0 && work[i] * work[i + 1] > 0 &&
+          out.stable[i] + out.stable[i + 1] > 0)
+        out.ways.push_back(way(out, i));
+    return out;
+  }
+
+ private:
+  // The multiple of the load with which it rests there; notes the force of the load itself.
+  double factor(double value) {
+    values_[free_] = value;
+    if (with_.solve(values_) != Status::done || without_.solve(values_) != Status::done) return work_ = nan;
+    work_ = with_.force[0] - without_.force[0];
+    return std::abs(work_) > balance_rounding * with_.scale ? -without_.force[0] / work_ : nan;
+  }
+
+  // From the zero between samples i and i + 1 on, in the sense in which the factor rises.
+  LoadPath::Way way(const LoadPath& path, std::size_t i) {
+    const std::vector<double>&x = path.value, &f = path.factor;
+    LoadPath::Way out;
+    out.from = f[i] == 0 ? x[i] : math::zero_between([&](double v) { return factor(v); }, x[i], x[i + 1]);
+    const std::ptrdiff_t step = f[i + 1] > f[i] ? 1 : -1;
+    std::ptrdiff_t k = static_cast<std::ptrdiff_t>(step > 0 ? i : i + 1);
+    const auto inside = [&](std::ptrdiff_t m) { return m >= 0 && m < static_cast<std::ptrdiff_t>(x.size()); };
+    const auto value = [&](std::ptrdiff_t m) { return x[static_cast<std::size_t>(m)]; };
+    const auto multiple = [&](std::ptrdiff_t m) { return f[static_cast<std::size_t>(m)]; };
+    while (inside(k + step) && multiple(k + step) > multiple(k)) {
+      if (multiple(k + step) >= 1) {
+        out.to = math::zero_between([&](double v) { return factor(v) - 1; }, value(k), value(k + step));
+        return out;
+      }
+      k += step;
+    }
+    out.snaps = inside(k + step) && std::isfinite(multiple(k + step));
+    out.leaves = !out.snaps;
+    out.to = value(k);
+    if (out.snaps) out.to = greatest_between(value(k - step), value(k + step));
+    out.factor = factor(out.to);
+    // The fold itself may lie beyond the full load.
+    if (out.snaps && out.factor >= 1) {
+      out.snaps = false;
+      out.to = math::zero_between([&](double v) { return factor(v) - 1; }, value(k - step), out.to);
+      out.factor = 1;
+    }
+    return out;
+  }
+  double greatest_between(double a, double b) {
+    const double golden = (3 - std::sqrt(5.0)) / 2;
+    for (int i = 0; i < 60; ++i) {
+      const double left = a + golden * (b - a), right = b - golden * (b - a);
+      (factor(left) >= factor(right) ? b : a) = factor(left) >= factor(right) ? right : left;
+    }
+    return (a + b) / 2;
+  }
+
+  StaticForces with_, without_;
+  std::size_t free_;
+  std::vector<double> values_;
+  double work_ = 0;
+};
+
 }  // namespace
 
 double RestPosition::frequency() const {
@@ -269,6 +356,61 @@ RestPositions rest_positions(const Linkage& linkage, const LinkagePlan& plan, co
   if (rotary && !asked.range)
     for (RestPosition& p : out.positions)
       if (out.ranges[p.range].full_turn) p.value = math::wrap_angle(p.value);
+  return out;
+}
+
+std::vector<RestBand> rest_bands(const Linkage& linkage, const LinkagePlan& plan, const RestPositions& found,
+                                 const RunContext* context) {
+  HoldingForces holding(linkage, plan);
+  LinkageMotion motion(plan);
+  std::vector<InputMotion> inputs(1);
+  const auto holds = [&](double value) {
+    inputs[0].value = value;
+    solve_position(plan, inputs, motion);
+    if (motion.status != Status::done) return false;
+    const HoldingRange drive = holding.range(value, motion, 0);
+    return drive.status == Status::done && drive.least <= 0 && drive.greatest >= 0;
+  };
+  std::vector<RestBand> out;
+  for (std::size_t r = 0; r < found.ranges.size(); ++r) {
+    const RestRange& range = found.ranges[r];
+    if (!range.modes.empty()) motion.modes = range.modes;
+    std::vector<double> at = range.value;
+    for (const RestPosition& p : found.positions)
+      if (p.range == r) at.push_back(p.value);
+    std::sort(at.begin(), at.end());
+    bool held = false;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (context && context->interruption() != Status::done) return out;
+      const bool now = holds(at[i]);
+      if (now != held) {
+        const bool begins = i == 0;
+        const double edge = begins ? at[i]
+                                   : math::bisect(holds, now ? at[i] : at[i - 1], now ? at[i - 1] : at[i],
+                                                  {.relative = 1e-14})
+                                         .inside;
+        if (now)
+          out.push_back({r, edge, edge});
+        else
+          out.back().to = edge;
+      }
+      if (now) out.back().to = at[i];
+      held = now;
+    }
+  }
+  return out;
+}
+
+std::vector<LoadPath> load_paths(const Linkage& linkage, const Linkage& unloaded, const LinkagePlan& plan,
+                                 const RestSearch& search, const RestPositions& found) {
+  std::optional<LinkageAssembly> assembly;
+  if (!plan.closed_form() && !found.ranges.empty()) {
+    const std::vector<double>& values = found.ranges.front().value;
+    assembly.emplace(plan, InputReach{{values.front()}, {values.back()}});
+  }
+  LoadPathScan scan(linkage, unloaded, plan, search, assembly ? &*assembly : nullptr);
+  std::vector<LoadPath> out;
+  for (const RestRange& range : found.ranges) out.push_back(scan.run(range));
   return out;
 }
 

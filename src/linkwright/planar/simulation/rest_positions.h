@@ -73,6 +73,29 @@ struct RestPositions {
   std::vector<RestPosition> positions;  ///< by range, then by value
 };
 
+/// A range of the free input in which friction holds the linkage at rest, wherever it is left.
+struct RestBand {
+  std::size_t range = 0;    ///< index into RestPositions::ranges
+  double from = 0, to = 0;  ///< rad or m
+};
+
+/// The rest positions of a range while one load grows: with which multiple of it the linkage rests where.
+struct LoadPath {
+  /// What happens to a linkage that rests stably without the load as it grows slowly.
+  struct Way {
+    double from = 0;      ///< value of the free input without the load (rad or m)
+    double to = 0;        ///< value at the end of the way
+    double factor = 1;    ///< multiple of the load there
+    bool snaps = false;   ///< the way ends at a fold, from which the linkage jumps elsewhere
+    bool leaves = false;  ///< the way ends at the end of the range
+  };
+  std::vector<double> value;  ///< samples of the range, rad or m
+  std::vector<double>
+      factor;  ///< multiple of the load with which it rests there; NaN where the load does no work
+  std::vector<double> stable;  ///< 1 where it is stable there, else 0
+  std::vector<Way> ways;       ///< by `from`
+};
+
 /// The choices of a search for rest positions.
 struct RestSearch {
   std::vector<double> inputs;  ///< values of all inputs: those that are held stay there (rad or m)
@@ -97,5 +120,30 @@ struct RestSearch {
 /// @throws ContractError if a body has no mass, or the choices do not fit the plan
 RestPositions rest_positions(const Linkage& linkage, const LinkagePlan& plan, const RestSearch& search,
                              const RunContext* context = nullptr);
+
+/// The bands in which friction holds a linkage with one input at rest: there its drive may be zero, see
+/// HoldingForces. Bands narrower than a sample of the ranges are found where they are about a rest position.
+///
+/// @param linkage the linkage, with masses and loads that do not depend on time
+/// @param plan its plan, with one input
+/// @param found its rest positions
+/// @param context cancellation and deadline; null: none
+/// @returns the bands, by range, then by value
+/// @throws ContractError if a body has no mass, or the plan has not one input
+std::vector<RestBand> rest_bands(const Linkage& linkage, const LinkagePlan& plan, const RestPositions& found,
+                                 const RunContext* context = nullptr);
+
+/// The paths of a load, one a range: the generalised force is affine in the size of the load, so that each
+/// position has its multiple, whose extremes are folds.
+///
+/// @param linkage the linkage, with the load
+/// @param unloaded the same linkage without the load
+/// @param plan the plan of both
+/// @param search the choices of the search for rest positions
+/// @param found the rest positions with the load
+/// @returns one path a range
+/// @throws ContractError as rest_positions does
+std::vector<LoadPath> load_paths(const Linkage& linkage, const Linkage& unloaded, const LinkagePlan& plan,
+                                 const RestSearch& search, const RestPositions& found);
 
 }  // namespace linkwright::planar

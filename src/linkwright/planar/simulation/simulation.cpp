@@ -56,10 +56,13 @@ SimulationReport Simulation::run(std::span<const double> times, const RunContext
   breaks_ = breaks_of(l_, drives_, times.front(), times.back());
   span_ = times.back() - times.front();
   std::size_t kinks = 0;
-  for_formulas(l_, [&kinks](const auto& load) { kinks += kinks_of(*load.formula); });
+  for_formulas(l_, [&kinks](const auto& load) {
+    kinks = std::max(kinks, load.formula->first_kink + kinks_of(*load.formula));
+  });
   kinks_of_loads_.assign(kinks, 1);
   if (!start(times.front())) return std::move(report_);
   std::vector<double> y = state();
+  if (kinks > 0) take_branches(times.front(), y);
   if (!contacts_.empty() && !start_stops(times.front(), y)) return std::move(report_);
   std::vector<double> tolerances;
   const auto free = dynamics_.free();
@@ -327,6 +330,9 @@ const SimulationInstant& Simulation::watched(double t, std::span<const double> y
 
 bool Simulation::after_step(double t, std::span<const double> y) {
   if (watch_.note && watched(t, y).status == Status::done && !watch_.note(instant_, {})) return false;
+  // What an event has missed, such as two crossings in one step, is taken up here.
+  if (!dynamics_.motion.branches.empty() && branches_at(t, y) != dynamics_.motion.branches)
+    take_branches(t, y);
   put(t, y);
   if (!twists_.empty() && solve(t).status == Status::done && placed().status == Status::done) {
     twists_ = audited_twists(t);
@@ -408,7 +414,7 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
   if (action == math::OdeAction::go_on && std::any_of(which.begin(), which.end(), [this](std::size_t event) {
         return event >= first_kink_event() && event < first_watched_;
       }))
-    action = kink_event(t);
+    action = kink_event(t, y);
   for (const std::size_t event : which) {
     if (event >= first_friction_event()) continue;
     const double value = event == 0 ? below_ : above_, sense = event == 0 ? -1 : 1;
@@ -441,22 +447,51 @@ math::OdeAction Simulation::act(double t, std::span<const std::size_t> which, st
 void Simulation::kink_values(double t, std::span<const double> y, std::span<double> values) {
   // Where the linkage is not known they stay what they were.
   if (place_at(t, y, false)) {
-    std::span<double> left(kinks_of_loads_);
     for_formulas(l_, [&](const auto& load) {
-      find_kinks(*load.formula, l_, plan_, dynamics_.motion, t, left);
-      left = left.subspan(kinks_of(*load.formula));
+      const LoadFormula& f = *load.formula;
+      find_kinks(f, l_, plan_, dynamics_.motion, t,
+                 std::span(kinks_of_loads_).subspan(f.first_kink, kinks_of(f)));
     });
   }
   std::copy(kinks_of_loads_.begin(), kinks_of_loads_.end(), values.begin());
 }
 
-// The steps begin anew behind a jump or a bend, unless a formula throws the motion back onto it at once.
-math::OdeAction Simulation::kink_event(double t) {
+std::vector<double> Simulation::branches_at(double t, std::span<const double> y) {
+  std::vector<double> out(kinks_of_loads_.size());
+  if (!place_at(t, y, false)) return dynamics_.motion.branches;
+  for_formulas(l_, [&](const auto& load) {
+    const LoadFormula& f = *load.formula;
+    find_branches(f, l_, plan_, dynamics_.motion, t, std::span(out).subspan(f.first_kink, kinks_of(f)));
+  });
+  return out;
+}
+
+void Simulation::take_branches(double t, std::span<const double> y) {
+  // Just on a bend, the way of the motion says on which side it goes on.
+  constexpr double ahead = 1e-9;
+  std::vector<double> now = branches_at(t, y), later(y.begin(), y.end());
+  const std::size_t n = dynamics_.free().size();
+  for (std::size_t i = 0; i < n; ++i) later[i] += ahead * span_ * y[n + i];
+  const std::vector<double> then = branches_at(t + ahead * span_, later);
+  for (std::size_t k = 0; k < now.size(); ++k)
+    if (now[k] == 0 && k < then.size()) now[k] = then[k];
+  dynamics_.motion.branches = std::move(now);
+  put(t, y);
+}
+
+// Steps stay on the branches of the formulas; behind a jump or a bend they begin anew on others. A formula
+// that throws the motion back at once is left to the steps themselves.
+math::OdeAction Simulation::kink_event(double t, std::span<const double> y) {
   constexpr int most_at_once = 20;
   constexpr double at_once = 1e-9;
+  if (dynamics_.motion.branches.empty()) return math::OdeAction::go_on;
   kinks_at_once_ = t - kinked_at_ <= at_once * span_ ? kinks_at_once_ + 1 : 0;
   kinked_at_ = t;
-  return kinks_at_once_ < most_at_once ? math::OdeAction::restart : math::OdeAction::go_on;
+  if (kinks_at_once_ < most_at_once)
+    take_branches(t, y);
+  else
+    dynamics_.motion.branches.clear();
+  return math::OdeAction::restart;
 }
 
 std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputDrive> drives, double from,

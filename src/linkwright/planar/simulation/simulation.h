@@ -37,6 +37,7 @@ struct SimulationOptions {
                           rate_resolution = {};           ///< the same for their rates (rad/s, m/s)
   long max_steps = 1'000'000;                             ///< steps after which it ends as not_converged
   AtChangePoint at_change_point = AtChangePoint::smooth;  ///< behaviour at change points
+  bool stop_at_rest = false;  ///< it ends where friction first holds the linkage at rest
 };
 
 /// One row of a simulation; valid during the call that receives it.

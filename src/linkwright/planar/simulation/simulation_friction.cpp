@@ -89,9 +89,9 @@ bool Simulation::start_friction(double t) {
     const LinkageJoint& joint = l_.joints[j];
     if (!has_friction(joint) || !moved[j]) continue;
     const bool slide = joint.type != JointType::revolute;
-    Rubbing r{
-        .joint = static_cast<int>(j),
-        .slide = slide && joint.guide_length == 0 && std::max(joint.friction, joint.friction_static) > 0};
+    Rubbing r{.joint = static_cast<int>(j),
+              .slide = slide && joint.guide_length == 0 &&
+                       (friction_at_rest(joint) > 0 || !joint.friction_values.empty())};
     const double rate = rate_of(r.joint);
     r.largest = std::abs(rate);
     states.senses[j] = rate > 0 ? 1 : -1;
@@ -102,7 +102,7 @@ bool Simulation::start_friction(double t) {
   report_.friction_events.clear();
   report_.friction_event_count = 0;
   keep_states(t);
-  stuck_ = resting_ && !may_be_freed(t);
+  stuck_ = resting_ && (options_.stop_at_rest || !may_be_freed(t));
   if (!resting_) return true;
   for (const std::size_t k : dynamics_.free())
     if (laws_.empty()) inputs_[k].rate = 0;
@@ -260,7 +260,7 @@ math::OdeAction Simulation::friction_event(double t, std::span<const std::size_t
   if (!decide(t, stops)) return math::OdeAction::restart;
   if (any_sticks()) still(t, y);
   keep_states(t);
-  stuck_ = resting_ && !may_be_freed(t);
+  stuck_ = resting_ && (options_.stop_at_rest || !may_be_freed(t));
   return stuck_ ? math::OdeAction::stop : math::OdeAction::restart;
 }
 

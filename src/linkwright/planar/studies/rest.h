@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "linkwright/planar/simulation/rest_configurations.h"
@@ -14,8 +15,10 @@ namespace linkwright::planar {
 struct RestStudy {
   Linkage linkage;
   LinkagePlan plan;
-  RestSearch search;             ///< of one free joint
-  std::optional<RestGrid> grid;  ///< of several free joints, instead
+  RestSearch search;                ///< of one free joint
+  std::optional<RestGrid> grid;     ///< of several free joints, instead
+  std::string load;                 ///< name of the load whose path is followed; empty: none
+  std::optional<Linkage> unloaded;  ///< the linkage without that load
   std::vector<BodyPoint> traces;
 };
 

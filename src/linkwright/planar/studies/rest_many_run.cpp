@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/rest.h"
 #include "linkwright/study/remarks.h"
@@ -65,7 +66,18 @@ class ConfigurationReport {
     }
     add("potential_energy_J", "potential energy of weight, springs and struts (J)",
         [](const RestConfiguration& c) { return c.potential; });
+    for (std::size_t k = 0; k < s_.linkage.stops.size(); ++k) {
+      if (s_.linkage.stops[k].stiffness) continue;
+      const std::string name = stop_name(s_.linkage, k);
+      add(identifier(name) + (is_on_pin(k) ? "_torque_N_m" : "_force_N"),
+          name + (is_on_pin(k) ? " torque (N m)" : " force (N)"),
+          [k](const RestConfiguration& c) { return c.stops[k]; });
+    }
     result_.tables.push_back(std::move(table));
+  }
+
+  bool is_on_pin(std::size_t stop) const {
+    return s_.linkage.joints[at(s_.linkage.stops[stop].joint)].type == JointType::revolute;
   }
 
   void draw() {
@@ -76,7 +88,12 @@ class ConfigurationReport {
     for (const double value : s_.grid->inputs) inputs.push_back({value, 0, 0});
     for (std::size_t i = 0; i < found_.found.size(); ++i) {
       for (std::size_t j = 0; j < count(); ++j) inputs[input(j)].value = found_.found[i].values[j];
+      motion.stops.clear();
       solve_motion(s_.plan, inputs, motion);
+      std::vector<double> efforts = found_.found[i].stops;
+      for (std::size_t k = 0; k < efforts.size(); ++k)
+        if (s_.linkage.stops[k].stiffness) efforts[k] = stop_effort(s_.linkage, s_.plan, motion, k);
+      motion.stops = std::move(efforts);
       solve_forces(s_.linkage, s_.plan, motion, 0, inputs[0].value, forces);
       records.push_back(record_of(s_.linkage, s_.plan, motion, &forces, static_cast<double>(i + 1)));
     }
@@ -108,6 +125,10 @@ class ConfigurationReport {
       const RestConfiguration& c = found_.found[i];
       Sentence text = say("{}: {}", place(c), name_of(c.kind));
       if (c.kind == RestKind::stable && !c.vibrations.empty()) text += say(", {}", frequencies(c));
+      for (std::size_t k = 0; k < c.stops.size(); ++k)
+        if (c.stops[k] > 0)
+          text += say(", {} pushes with {}", stop_name(s_.linkage, k),
+                      study::torque_or_force(c.stops[k], is_on_pin(k), 5));
       fact(fmt::format("rest position {}", i + 1), text);
     }
     fact("search",
@@ -129,9 +150,10 @@ class ConfigurationReport {
     result_.statistics["rest_positions"] = static_cast<double>(found_.found.size());
     result_.statistics["stable"] = static_cast<double>(stable());
   }
-  std::ptrdiff_t stable() const {
-    return std::count_if(found_.found.begin(), found_.found.end(),
-                         [](const RestConfiguration& c) { return c.kind == RestKind::stable; });
+  std::ptrdiff_t stable() const { return std::count_if(found_.found.begin(), found_.found.end(), stays); }
+  // Pressed on stops in all free joints it stays as well.
+  static bool stays(const RestConfiguration& c) {
+    return c.kind == RestKind::stable || c.kind == RestKind::at_end;
   }
 
   void headline() {
@@ -141,8 +163,7 @@ class ConfigurationReport {
                              : say("No rest position was found from {} starts.", found_.starts);
       return;
     }
-    const auto first = std::find_if(found_.found.begin(), found_.found.end(),
-                                    [](const RestConfiguration& c) { return c.kind == RestKind::stable; });
+    const auto first = std::find_if(found_.found.begin(), found_.found.end(), stays);
     result_.headline = first == found_.found.end()
                            ? say("None of {} rest positions is stable.", found_.found.size())
                            : say("{} of {} rest positions {} stable, the lowest at {}.", stable(),

@@ -43,6 +43,7 @@ struct RestTable {
   int samples = 720;
   std::optional<int> starts;
   RestModes modes = RestModes::drawn;
+  std::optional<std::string> load;
 };
 template <class Visitor>
 void joint_fields(Visitor&& visit, bool rotary, RestTable& r) {
@@ -55,6 +56,11 @@ void joint_fields(Visitor&& visit, bool rotary, RestTable& r) {
             .between(2, 1000),
         r.starts);
   visit(field::entry("modes", "assembly modes in which it is looked for rest positions"), r.modes);
+  visit(field::entry(
+            "load",
+            "one free joint: force, torque or strut that grows slowly from nothing; where the linkage then "
+            "rests, and the loads at which it snaps"),
+        r.load);
 }
 
 std::vector<RestDrive> read_rest_drives(study::ObjectReader& document, const LinkageDescription& d) {
@@ -104,7 +110,7 @@ void take_range(study::ObjectReader& rest, const RestTable& table, RestSearch& s
 
 // The choices of a search with several free joints.
 void take_grid(study::ObjectReader& rest, const RestTable& table, RestGrid& grid) {
-  for (const char* key : {"from", "to", "samples", "modes"})
+  for (const char* key : {"from", "to", "samples", "modes", "load"})
     if (rest.has(key))
       rest.error(key, fmt::format("it is for one free joint, and {} are free", grid.free.size()),
                  "leave the key out; `starts` is for several");
@@ -114,6 +120,21 @@ void take_grid(study::ObjectReader& rest, const RestTable& table, RestGrid& grid
                fmt::format("{} starts along each of {} joints are more than a million", grid.starts,
                            grid.free.size()),
                "take fewer");
+}
+
+// The linkage without the load of that name.
+std::optional<Linkage> without_load(study::ObjectReader& rest, const Linkage& l, const std::string& name) {
+  Linkage out = l;
+  std::vector<std::string_view> known;
+  const auto erased = [&](auto& loads) {
+    for (const auto& load : loads) known.push_back(load.name);
+    return std::erase_if(loads, [&](const auto& load) { return load.name == name; }) > 0;
+  };
+  const bool force = erased(out.forces), torque = erased(out.torques), strut = erased(out.struts);
+  if (force || torque || strut) return out;
+  // Nothing has left the lists, so that the names still hold.
+  rest.no_such("load", "force, torque or strut", name, known);
+  return std::nullopt;
 }
 
 // What the file asks for; nothing where it is none.
@@ -148,21 +169,27 @@ bool read_search(study::ObjectReader& document, const LinkageDescription& d, Res
       take_range(*rest, table, s.search);
     else
       take_grid(*rest, table, grid);
+    if (single && table.load) {
+      s.load = *table.load;
+      s.unloaded = without_load(*rest, d.linkage, s.load);
+    }
   }
   if (!d.plan.closed_form() && d.plan.inputs() != 1)
     document.error("mechanism",
                    "rest positions of groups without closed form are found for linkages with one input",
                    "weld the joints that are held (type = \"fixed\")");
   if (!single)
-    for (const JointStop& stop : d.linkage.stops)
-      if (!stop.stiffness) {
-        document.error(
-            "mechanism.stop",
-            fmt::format("the stop of '{}' is rigid, and {} joints are free",
-                        d.linkage.joints[static_cast<std::size_t>(stop.joint)].name, grid.free.size()),
-            "give it a stiffness, or hold all joints but one");
-        break;
-      }
+    for (const JointStop& stop : d.linkage.stops) {
+      const bool on_free = std::any_of(grid.free.begin(), grid.free.end(),
+                                       [&](std::size_t k) { return d.linkage.driven[k] == stop.joint; });
+      if (stop.stiffness || on_free) continue;
+      document.error(
+          "mechanism.stop",
+          fmt::format("the stop of '{}' is rigid, and that joint is none of the {} free ones",
+                      d.linkage.joints[static_cast<std::size_t>(stop.joint)].name, grid.free.size()),
+          "make it one of the free joints, give its stop a stiffness, or hold all joints but one");
+      break;
+    }
   canonical["drive"] = Value(std::move(written_drives));
   Value written = Value::object();
   study::ObjectWriter writer(written);

@@ -36,8 +36,14 @@ class RestReport {
                                                               : "Stopped before a rest position was found.";
       return std::move(result_);
     }
+    const bool loses = std::any_of(s_.linkage.joints.begin(), s_.linkage.joints.end(), loses_power);
+    has_bands_ = loses && s_.plan.inputs() == 1;
+    if (has_bands_) bands_ = rest_bands(s_.linkage, s_.plan, found_, &context_);
+    if (s_.unloaded) paths_ = load_paths(s_.linkage, *s_.unloaded, s_.plan, s_.search, found_);
     position_table();
+    if (!bands_.empty()) band_table();
     range_tables();
+    path_tables();
     draw();
     facts();
     headline();
@@ -104,6 +110,59 @@ class RestReport {
     }
     add("range", "number of the range", [](const RestPosition& p) { return p.range + 1; });
     result_.tables.push_back(std::move(table));
+  }
+
+  void band_table() {
+    std::vector<double> from, to, range;
+    for (const RestBand& b : bands_) {
+      from.push_back(b.from);
+      to.push_back(b.to);
+      range.push_back(static_cast<double>(b.range + 1));
+    }
+    const std::string unit = rotary_ ? "rad" : "m";
+    Table table{.name = "bands"};
+    table.add("from_" + unit, fmt::format("{}: friction holds from ({})", name_, unit), std::move(from));
+    table.add("to_" + unit, fmt::format("{}: friction holds up to ({})", name_, unit), std::move(to));
+    table.add("range", "number of the range", std::move(range));
+    result_.tables.push_back(std::move(table));
+  }
+
+  // Beyond what loads of practice are, the curve only flattens the rest.
+  void path_tables() {
+    constexpr double most = 20;
+    for (std::size_t r = 0; r < paths_.size(); ++r) {
+      const LoadPath& path = paths_[r];
+      Table table{.name = numbered("load_path", r)};
+      std::vector<double> value, factor, stable;
+      for (std::size_t i = 0; i < path.value.size(); ++i) {
+        if (!(std::abs(path.factor[i]) <= most)) continue;
+        value.push_back(path.value[i]);
+        factor.push_back(path.factor[i]);
+        stable.push_back(path.stable[i]);
+      }
+      if (value.empty()) continue;
+      table.add(key_, label_, std::move(value));
+      table.add("load_factor", fmt::format("multiple of {} with which it rests there", s_.load),
+                std::move(factor));
+      table.add("stable", "1 if stable", std::move(stable));
+      result_.tables.push_back(std::move(table));
+      const std::string where = paths_.size() == 1 ? std::string() : fmt::format(", range {}", r + 1);
+      const study::AddPlot plot{result_, {.table = numbered("load_path", r), .x = key_}};
+      plot(numbered("load-path", r), fmt::format("Multiple of {} with which it rests{}", s_.load, where),
+           {"load_factor"});
+    }
+  }
+
+  void path_facts(const study::AddFact& fact) const {
+    for (const LoadPath& path : paths_)
+      for (const LoadPath::Way& way : path.ways) {
+        const Sentence start = say("from {} without {} to {}", place(way.from, 8), s_.load, place(way.to, 8));
+        const Measured share = plain_number(way.factor, 6);
+        fact("as the load grows", way.snaps ? say("{}, where it snaps with {} of the load", start, share)
+                                  : way.leaves
+                                      ? say("{}, the end of the range, with {} of the load", start, share)
+                                      : say("{} with all of it", start));
+      }
   }
 
   void range_tables() {
@@ -212,9 +271,14 @@ class RestReport {
                 place(range.dead_below ? range.from : range.to), name_),
             "rest positions beyond it are found with another joint as the free one, or with modes = \"all\"");
     }
+    path_facts(fact);
+    for (const RestBand& b : bands_)
+      fact(bands_.size() == 1 ? std::string("held by friction")
+                              : fmt::format("held by friction {}", &b - bands_.data() + 1),
+           say("from {} to {}, wherever it is left there", place(b.from, 8), place(b.to, 8)));
     report_assumed_masses(s_.linkage, result_);
     for (const LinkageJoint& j : s_.linkage.joints)
-      if (loses_power(j)) {
+      if (!has_bands_ && loses_power(j)) {
         warn(say("the friction of '{}' is left out: with it the linkage rests in bands about these positions",
                  j.name));
         break;
@@ -267,6 +331,9 @@ class RestReport {
   const bool rotary_;
   const std::string key_, label_, name_;
   RestPositions found_;
+  std::vector<RestBand> bands_;  // of a linkage with one input and friction
+  bool has_bands_ = false;
+  std::vector<LoadPath> paths_;  // of the load, one a range
   study::Result result_;
 };
 

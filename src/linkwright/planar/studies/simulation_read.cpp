@@ -41,6 +41,11 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
   visit(field::entry("max_steps", "largest number of steps").between(1, 1e9), s.options.max_steps);
   visit(field::entry("at_change_point", "where assembly modes meet, as of a parallelogram in line"),
         s.options.at_change_point);
+  visit(field::entry(
+            "stop_at_rest",
+            "the motion ends where friction first holds the linkage at rest, even if loads that change "
+            "with time would move it on"),
+        s.options.stop_at_rest);
   visit(field::time("settle",
                     "time before `from` at which elastic bodies start, undeformed; its rows are left "
                     "out, so that vibrations that the start excites die out if they are damped")

@@ -39,6 +39,7 @@ struct LoadQuantity {
 struct LoadFormula {
   std::vector<math::Formula> components;
   std::vector<LoadQuantity> quantities;  ///< in the order of the values of the formulas
+  std::size_t first_kink = 0;  ///< of LinkageMotion::branches: behind those of the formulas read before
 };
 
 /// The largest number of quantities of a load.
@@ -74,6 +75,9 @@ std::array<double, 2> values_of(const LoadFormula& formula, const Linkage& linka
 
 /// The number of places at which the formulas of a load may jump or bend, see math::Formula::kinks.
 std::size_t kinks_of(const LoadFormula& formula);
+/// The branches that the formulas of a load take there.
+void find_branches(const LoadFormula& formula, const Linkage& linkage, const LinkagePlan& plan,
+                   const LinkageMotion& motion, double time, std::span<double> branches);
 /// The numbers whose signs change there.
 void find_kinks(const LoadFormula& formula, const Linkage& linkage, const LinkagePlan& plan,
                 const LinkageMotion& motion, double time, std::span<double> kinks);

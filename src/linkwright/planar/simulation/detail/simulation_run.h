@@ -209,7 +209,10 @@ class Simulation {
   // ---- formulas -----------------------------------------------------------------------------------------
 
   void kink_values(double t, std::span<const double> y, std::span<double> values);
-  math::OdeAction kink_event(double t);
+  math::OdeAction kink_event(double t, std::span<const double> y);
+  // The branches of the formulas from here on, on which they stay up to the next event.
+  void take_branches(double t, std::span<const double> y);
+  std::vector<double> branches_at(double t, std::span<const double> y);
 
   // ---- end ----------------------------------------------------------------------------------------------
 
