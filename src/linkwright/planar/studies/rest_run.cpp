@@ -154,14 +154,15 @@ class RestReport {
   }
 
   void path_facts(const study::AddFact& fact) const {
+    int count = 0;
     for (const LoadPath& path : paths_)
       for (const LoadPath::Way& way : path.ways) {
+        const std::string label = fmt::format("as the load grows {}", ++count);
         const Sentence start = say("from {} without {} to {}", place(way.from, 8), s_.load, place(way.to, 8));
         const Measured share = plain_number(way.factor, 6);
-        fact("as the load grows", way.snaps ? say("{}, where it snaps with {} of the load", start, share)
-                                  : way.leaves
-                                      ? say("{}, the end of the range, with {} of the load", start, share)
-                                      : say("{} with all of it", start));
+        fact(label, way.snaps    ? say("{}, where it snaps with {} of the load", start, share)
+                    : way.leaves ? say("{}, the end of the range, with {} of the load", start, share)
+                                 : say("{} with all of it", start));
       }
   }
 
