@@ -171,7 +171,8 @@ TEST_F(RealLists, ExamplesByPartAndCopied) {
   EXPECT_EQ(err_,
             "error: several examples fit 'balance-arm'; write one of:\n"
             "  balance-arm-counterweights: Counterweights of an arm of two links\n"
-            "  balance-arm-law: Motion law of an arm of two links\n");
+            "  balance-arm-law: Motion law of an arm of two links\n"
+            "  counterbalance-arm: Arm that a spring carries\n");
   EXPECT_EQ(run({"examples", "--copy", "submarine"}), 2);
   EXPECT_EQ(err_, "error: there is no example 'submarine'; `linkwright examples` lists all\n");
   EXPECT_EQ(run({"examples", "--copy", "scisor-lift"}), 2);
