@@ -542,10 +542,48 @@ TEST(AnyFunctionStudies, WithSeveralSeedsHaveTheSameBitsHoweverTheyAreRun) {
   same(run(2, &kept));
 }
 
+// Of the ranges that are allowed the search takes those with the least error for the range of the output.
+// Here they are not at the middle, and both the ends and the middle are worse.
+TEST(AnyFunctionStudies, ChooseRangesThatAreFree) {
+  const auto run = [](const std::string& input, const std::string& output) {
+    return test::run_text(
+        any_function({{"1", "[mechanism]\ntype = \"planar.any\"\nfamilies = [\"four_bar\"]\n"},
+                      {"22", "input_range_deg = " + input + "\n"},
+                      {"23", "output_range_deg = " + output + "\n"},
+                      {"4", "[optimiser]\nevaluations = 3000\n"}}));
+  };
+  const study::Result free = run("90", "{ min = 40, max = 100 }");
+  ASSERT_FALSE(free.solutions.empty());
+  const auto of = [](const study::Result& result, const char* name) {
+    const Value* value = result.solutions[0].objectives.find(name);
+    return value ? value->as_number() : nan;
+  };
+  const double input = of(free, "input_range_rad") * 180 / pi,
+               output = of(free, "output_range_rad") * 180 / pi;
+  EXPECT_NEAR(input, 90, 1e-9);
+  EXPECT_GE(output, 40 - 1e-9);
+  EXPECT_LE(output, 100 + 1e-9);
+  EXPECT_NEAR(of(free, "structural_error_share"),
+              of(free, "structural_error_rad") / of(free, "output_range_rad"), 1e-15);
+  EXPECT_NE(test::fact(free, "range of the output"), "no fact");
+  const study::Result middle = run("90", "70");
+  ASSERT_FALSE(middle.solutions.empty());
+  EXPECT_LT(of(free, "structural_error_share"), of(middle, "structural_error_rad") / (70 * pi / 180));
+}
+
 TEST(AnyFunctionStudies, SayWhatIsWrong) {
   const auto problems = [](std::map<std::string, std::string> changed) {
     return test::problems_of(any_function(std::move(changed)));
   };
+  EXPECT_THAT(problems({{"23", "output_range_deg = { min = -20, max = 40 }\n"}}),
+              HasSubstr("let both of its ends have one sign"));
+  EXPECT_THAT(problems({{"22", "input_range_deg = { min = 200, max = 360 }\n"}}),
+              HasSubstr("less than a whole turn can be chosen"));
+  EXPECT_THAT(problems({{"22", "input_range_deg = { min = 90, max = 60 }\n"}}), HasSubstr("larger than max"));
+  EXPECT_THAT(problems({{"23",
+                         "output_range_deg = { min = 60, max = 90 }\ndwell = [{ from_deg = 10, to_deg = 20 "
+                         "}]\n"}}),
+              HasSubstr("free ranges are for functions without dwells"));
   EXPECT_THAT(problems({{"23", ""}}), HasSubstr("how far the output moves is missing"));
   EXPECT_THAT(problems({{"23", "output_range_deg = 90\noutput_range_mm = 5\n"}}),
               HasSubstr("the output is both an angle and a travel"));

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <string>
@@ -32,6 +34,74 @@ struct FunctionFindings {
   double worst_rest = 0;     ///< greatest departure from its mean while it is to rest
   std::vector<double> rest;  ///< value at which it rests, of each dwell: rad, or m
 };
+
+/// A study at ranges of the crank and of the output.
+AnyStudy at_ranges(const AnyStudy& s, double input, double output) {
+  AnyStudy out = s;
+  FunctionProblem& p = out.function.problem;
+  const double given = 0.5 * (s.ranges->output.lower + s.ranges->output.upper);
+  p.input_range = input;
+  // The output is proportional to its range.
+  p.output = [own = s.function.problem.output, by = output / given](double share) { return by * own(share); };
+  out.ranges->input = {input, input}, out.ranges->output = {output, output};
+  out.motion = function_target({.output = s.motion->output,
+                                .range = input,
+                                .at = p.output,
+                                .dwells = {},
+                                .size = s.motion->stroke.size});
+  return out;
+}
+
+/// Chooses the ranges that are free: those at which the simplest machines of the search have the least root
+/// mean square error, as a part of the range of the output. A grid, then steps in each range, halved three
+/// times. The choice counts curves, never seconds, so that it is the same on every machine.
+AnyStudy with_chosen_ranges(const AnyStudy& s, const study::Common& common, RunContext& context) {
+  constexpr int rounds = 3;
+  constexpr std::int64_t curves_by_time = 20'000;
+  const FunctionRanges& r = *s.ranges;
+  const std::array<const Range*, 2> range{&r.input, &r.output};
+  TypeSearchOptions options = search_options(s, common, limits_of(s.limits, s.motion->stroke));
+  std::vector<MachineFamily> families = searched_families(*s.motion, options);
+  int fewest = 100;
+  for (const MachineFamily f : families) fewest = std::min(fewest, links_of(f));
+  std::erase_if(families, [&](MachineFamily f) { return links_of(f) > fewest; });
+  options.families = families, options.max_links = fewest;
+  options.max_curves =
+      s.optimiser.evaluations ? std::max<std::int64_t>(3000, *s.optimiser.evaluations / 40) : curves_by_time;
+  double least = infinity;
+  std::array<double, 2> best{0.5, 0.5};  // shares of the ranges
+  const auto value_at = [&](int i, double share) {
+    const Range& of = *range[static_cast<std::size_t>(i)];
+    return of.lower + share * (of.upper - of.lower);
+  };
+  const auto look_at = [&](std::array<double, 2> share) {
+    if (context.interrupted()) return;
+    const AnyStudy trial = at_ranges(s, value_at(0, share[0]), value_at(1, share[1]));
+    options.limits = limits_of(s.limits, trial.motion->stroke);
+    RunContext part;
+    part.set_part_of(context);
+    part.set_threads(context.threads());
+    const TypeSearchAnswer answer = search_types(*trial.motion, options, part);
+    double error = infinity;
+    for (const FamilyReport& f : answer.families) error = std::min(error, f.error);
+    error *= trial.motion->error_unit() / std::abs(value_at(1, share[1]));
+    if (error < least) least = error, best = share;
+  };
+  const bool both = !r.input.fixed() && !r.output.fixed();
+  const int steps = both ? 3 : 4;
+  for (int i = 0; i <= (r.input.fixed() ? 0 : steps); ++i)
+    for (int j = 0; j <= (r.output.fixed() ? 0 : steps); ++j)
+      look_at({static_cast<double>(i) / steps, static_cast<double>(j) / steps});
+  double step = 0.5 / steps;
+  for (int round = 0; round < rounds; ++round, step *= 0.5)
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const double by : {-step, step}) {
+        std::array<double, 2> share = best;
+        share[i] += by;
+        if (!range[i]->fixed() && share[i] >= 0 && share[i] <= 1) look_at(share);
+      }
+  return at_ranges(s, value_at(0, best[0]), value_at(1, best[1]));
+}
 
 class FunctionReport final : public AnyReport {
  public:
@@ -175,6 +245,11 @@ class FunctionReport final : public AnyReport {
     out.objectives[key("structural_error")] = found_[i].greatest;
     out.objectives[key("structural_error_rms")] = found_[i].root_mean;
     if (!s_.dwells.empty()) out.objectives[key("rest_error")] = found_[i].worst_rest;
+    if (s_.ranges) {
+      out.objectives["input_range_rad"] = s_.ranges->input.lower;
+      out.objectives[key("output_range")] = s_.ranges->output.lower;
+      out.objectives["structural_error_share"] = found_[i].greatest / std::abs(s_.ranges->output.lower);
+    }
     out.classification["output"] = of.traced.substr(0, of.traced.find('.'));
     out.classification["crank_begins_rad"] = machine.angle[0] + of.crank_angle;
     if (!slider()) out.classification["output_angle_on_link_rad"] = machine.body_angle;
@@ -234,6 +309,9 @@ class FunctionReport final : public AnyReport {
   void introduce(const study::AddFact& fact) const override {
     fact("function", say("{}, x = {} to {}", s_.function.name, plain_number(s_.function.x_from),
                          plain_number(s_.function.x_to)));
+    if (!s_.ranges) return;
+    fact("rotation of the crank over the range", degrees_of(s_.ranges->input.lower, 5));
+    fact("range of the output", output(s_.ranges->output.lower, 5));
   }
 
   void tell_of_best(const study::AddFact& fact, const Sentence& links, const Measured& pair_angle) override {
@@ -257,7 +335,9 @@ class FunctionReport final : public AnyReport {
 }  // namespace
 
 study::Result run_any_function_study(const AnyStudy& s, const study::Common& common, RunContext& context) {
-  return FunctionReport(s, common).make(context);
+  if (!s.ranges) return FunctionReport(s, common).make(context);
+  const AnyStudy chosen = with_chosen_ranges(s, common, context);
+  return FunctionReport(chosen, common).make(context);
 }
 
 }  // namespace linkwright::planar

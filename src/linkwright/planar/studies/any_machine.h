@@ -148,13 +148,16 @@ struct AnyFunctionTarget : FunctionTarget {
   AnyFunctionTarget() { fit = FunctionFit::minimax; }
   /// What the unit of output_range says, where it is known.
   std::optional<bool> slides;
-  std::optional<double> angle, travel, size;
+  Range input;
+  std::optional<Range> angle, travel;
+  std::optional<double> size;
   std::optional<double> time_ratio;
   std::vector<DwellForm> dwells;
 };
 template <class Visitor>
 void fields(Visitor&& visit, AnyFunctionTarget& t) {
   formula_fields(visit, t);
+  visit(input_range_field(), t.input);
   if (!t.slides.value_or(false))
     visit(field::angle("output_range",
                        "rotation of the output link over the range, signed; of a function that ends as it "
@@ -264,6 +267,12 @@ void fields(Visitor&& visit, AnyOptimiser& o) {
         o.max_solutions);
 }
 
+/// Ranges of a function that the search chooses where they are not fixed: of the crank (rad) and of the
+/// output (rad, or m of a slider), signed.
+struct FunctionRanges {
+  Range input, output;
+};
+
 struct AnyStudy {
   AnyMechanism mechanism;
   AnyMotionLimits limits;
@@ -272,6 +281,7 @@ struct AnyStudy {
   Stroke drawn;                             ///< the stroke, or the places of the poses
   std::vector<double> angles;               ///< of the body at the poses (rad); none: a stroke
   FunctionStudy function;                   ///< the function, for such studies
+  std::optional<FunctionRanges> ranges;     ///< where one of them is free
   std::optional<QuickReturn> quick_return;  ///< instead of a function
   FunctionFit fit = FunctionFit::least_squares;
   std::vector<Dwell> dwells;

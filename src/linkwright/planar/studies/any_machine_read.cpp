@@ -314,10 +314,47 @@ void read_quick_return(study::ObjectReader& target, const AnyFunctionTarget& for
   s.function.problem.slider = slider;
   s.quick_return = QuickReturn{.output = slider ? MachineOutput::slide : MachineOutput::angle,
                                .time_ratio = *form.time_ratio,
-                               .range = slider ? *form.travel : *form.angle,
+                               .range = slider ? form.travel->lower : form.angle->lower,
                                .clockwise = form.input_range < 0,
                                .size = form.size.value_or(0.1)};
   s.motion = quick_return_target(*s.quick_return);
+}
+
+double middle_of(const Range& range) { return 0.5 * (range.lower + range.upper); }
+
+/// Says which ranges of a function are free; false where they cannot be.
+bool read_ranges(study::ObjectReader& target, const study::Common& common, const AnyFunctionTarget& form,
+                 AnyStudy& s) {
+  const Range output = form.angle ? *form.angle : *form.travel;
+  const auto possible = [&](const char* key, const Range& range, double most, Dimension dimension) {
+    if (range.fixed()) return true;
+    if (!(range.lower * range.upper > 0)) {
+      target.error(key,
+                   "the sense of a free range is not known: it goes from a negative number to a positive",
+                   "let both of its ends have one sign");
+      return false;
+    }
+    if (std::max(std::abs(range.lower), std::abs(range.upper)) <= most) return true;
+    target.error(key,
+                 fmt::format("a free range goes up to {}, less than a whole turn can be chosen",
+                             common.units.text(range.upper, dimension, 5)),
+                 "write one number for a whole turn");
+    return false;
+  };
+  constexpr double nearly_a_turn = 359 * pi / 180;
+  if (!possible("input_range", form.input, nearly_a_turn, Dimension::angle) ||
+      !possible("output_range", output, form.travel ? infinity : nearly_a_turn,
+                form.travel ? Dimension::length : Dimension::angle))
+    return false;
+  if (form.input.fixed() && output.fixed()) return true;
+  if (form.time_ratio || !form.dwells.empty()) {
+    target.error(form.time_ratio ? "time_ratio" : "dwell",
+                 "free ranges are for functions without dwells and time ratio",
+                 "write one number for each range");
+    return false;
+  }
+  s.ranges = FunctionRanges{form.input, output};
+  return true;
 }
 
 /// Reads the target of a function.
@@ -349,11 +386,14 @@ void read_function_target(study::ObjectReader& target, const study::Common& comm
                  "leave it out: the travel of the slider says how large machines are");
   FunctionStudy& f = s.function;
   f.may_return = true;
+  form.input_range = middle_of(form.input);
   f.target = form;
-  f.target.output_angle = form.angle.value_or(0), f.target.output_length = form.travel.value_or(0);
+  f.target.output_angle = form.angle ? middle_of(*form.angle) : 0;
+  f.target.output_length = form.travel ? middle_of(*form.travel) : 0;
   f.problem.slider = slider;
   const std::vector<Dwell> dwells = read_dwells(target, common, form);
-  if (form.angle == 0.0 || form.travel == 0.0) {
+  if (!read_ranges(target, common, form, s)) return;
+  if (f.target.output_angle == 0 && f.target.output_length == 0) {
     target.error("output_range", "the output does not move", "write a range other than 0");
     return;
   }

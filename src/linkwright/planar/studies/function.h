@@ -58,15 +58,18 @@ void formula_fields(Visitor&& visit, FunctionTarget& t) {
                      "linkage meets are its precision points, unless at, points or fit is given"),
         t.table);
   visit(field::entry("x", "range of x; default: that of the table"), t.x);
-  visit(field::angle("input_range", "rotation of the crank over the range, signed")
-            .between(-6.283185307179586, 6.283185307179586)
-            .required(),
-        t.input_range);
+}
+/// Also of machines of any type, where it may be free.
+constexpr Field input_range_field() {
+  return field::angle("input_range", "rotation of the crank over the range, signed")
+      .between(-6.283185307179586, 6.283185307179586)
+      .required();
 }
 /// The output range of a four-bar is an angle, that of a slider-crank a length.
 template <class Visitor>
 void function_fields(Visitor&& visit, FunctionTarget& t, bool slider, bool exact = true) {
   formula_fields(visit, t);
+  visit(input_range_field(), t.input_range);
   if (slider)
     visit(field::length("output_range", "travel of the slider over the range, signed").required(),
           t.output_length);
