@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "linkwright/suspension/corner/suspension.h"
 #include "linkwright/suspension/wheel/parameters.h"
@@ -157,6 +162,100 @@ TEST(AxleCompliance, RackInSeriesWithTheTieRod) {
   double shift = 0;
   for (int j = 0; j < 6; ++j) shift += axle.at_centres[1][j] * by[j];
   EXPECT_NEAR(respond(axle, load, {}).left.shift.y, shift, 1e-15);
+}
+
+using Stiffness = Eigen::MatrixXd;
+
+/// Adds k w w^T for a spring along `line` between a point of a carrier and the body, or a point of the
+/// subframe. Coordinates: both carriers about their centres, the subframe about the origin.
+void add_rod(Stiffness& k, int wheel, const Vec3& centre, const Vec3& at, const Vec3& line,
+             const Vec3* subframe, double stiffness) {
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(k.rows());
+  const Vec3 turn = cross(at - centre, line);
+  w.segment<6>(6 * wheel) << line.x, line.y, line.z, turn.x, turn.y, turn.z;
+  if (subframe) {
+    const Vec3 back = cross(*subframe, line);
+    w.segment<6>(12) << -line.x, -line.y, -line.z, -back.x, -back.y, -back.z;
+  }
+  k += stiffness * w * w.transpose();
+}
+
+double largest_difference(const Matrix12& a, const Stiffness& b) {
+  double out = 0;
+  for (std::size_t i = 0; i < 12; ++i)
+    for (std::size_t j = 0; j < 12; ++j) {
+      const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+      out = std::max(out, std::abs(a[i][j] - b(r, c)) / std::sqrt(b(r, r) * b(c, c)));
+    }
+  return out;
+}
+
+// Five elastic rods at each wheel, four of them on a subframe, and a bar on the carriers: against the
+// stiffness of both carriers and the subframe put together by hand.
+TEST(AxleCompliance, SubframeAndBarAgainstTheWholeStiffness) {
+  const Suspension& left = corner_sample("5US").suspension;
+  const std::vector<double> rods{18e6, 20e6, 15e6, 12e6, 13e6};
+  constexpr double spring = 30e3, bar = 900;
+  Matrix6 mounts{};
+  for (std::size_t i = 0; i < 6; ++i)
+    mounts[i][i] = i < 3 ? 5e6 + 1e6 * static_cast<double>(i) : 4e5 + 1e5 * static_cast<double>(i);
+  mounts[0][4] = mounts[4][0] = 2e5;
+  Stiffness whole = Stiffness::Zero(18, 18);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      whole(12 + i, 12 + j) = mounts[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  std::array<Compliance, 2> wheels;
+  const AxleJoining joining{.subframe = mounts, .bar = bar, .twist = {3.1, -2.7}};
+  Eigen::VectorXd twist = Eigen::VectorXd::Zero(18);
+  for (const int wheel : {0, 1}) {
+    const auto w = static_cast<std::size_t>(wheel);
+    const Suspension suspension = wheel == 0 ? left : mirrored(left);
+    const Vec3 centre = suspension.wheel.centre;
+    CornerElasticity elasticity = elastic_rods(suspension, rods, spring);
+    for (std::size_t i = 0; i < 5; ++i) {
+      elasticity.links[i].on_subframe = i != 1;
+      const Vec3 body = suspension.links[i].body[0], outer = suspension.links[i].carrier[0];
+      add_rod(whole, wheel, centre, outer, unit(outer - body), i != 1 ? &body : nullptr, rods[i]);
+    }
+    add_rod(whole, wheel, centre, suspension.spring->moving,
+            unit(suspension.spring->moving - suspension.spring->body), nullptr, spring);
+    const Vec3 end = centre + Vec3{-0.1, 0, 0.05}, along = unit(Vec3{0.1, 0.2, 1});
+    elasticity.droplink = DroplinkEnd{-1, end, along};
+    const Vec3 turn = cross(end - centre, along);
+    twist.segment<6>(6 * wheel) << along.x, along.y, along.z, turn.x, turn.y, turn.z;
+    twist.segment<6>(6 * wheel) *= joining.twist[w];
+    wheels[w] = solve_compliance(suspension, {{centre, {}}, 0}, 0, elasticity, Support::spring);
+    ASSERT_EQ(wheels[w].status, Status::done) << wheels[w].reason;
+  }
+  const auto expected = [](const Stiffness& k) { return Stiffness(k.inverse().topLeftCorner(12, 12)); };
+  // The subframe alone, the bar alone, both.
+  AxleJoining one = joining;
+  one.bar = 0;
+  EXPECT_LT(largest_difference(axle_compliance(wheels[0], wheels[1], rigid, one).at_centres, expected(whole)),
+            1e-9);
+  const Stiffness with_bar = whole + bar * twist * twist.transpose();
+  const AxleCompliance both = axle_compliance(wheels[0], wheels[1], rigid, joining);
+  EXPECT_LT(largest_difference(both.at_centres, expected(with_bar)), 1e-9);
+  one = joining;
+  one.subframe.reset();
+  const Stiffness held = with_bar.topLeftCorner(12, 12).inverse();
+  EXPECT_LT(largest_difference(axle_compliance(wheels[0], wheels[1], rigid, one).at_centres, held), 1e-9);
+  // Motions, the moment of the bar and the balance of a carrier under a load.
+  const WheelLoad on_left{{-800, 600, 3000}, {10, 20, 30}}, on_right{{100, 200, 2500}, {}};
+  const AxleResponse moved = respond(both, on_left, on_right);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(18);
+  load.head<12>() << -800, 600, 3000, 10, 20, 30, 100, 200, 2500, 0, 0, 0;
+  const Eigen::VectorXd x = with_bar.inverse() * load;
+  EXPECT_NEAR(moved.left.shift.y, x(1), 1e-9 * std::abs(x(1)));
+  EXPECT_NEAR(moved.right.turn.z, x(11), 1e-9 * std::abs(x(11)));
+  EXPECT_NEAR(moved.subframe[2], x(14), 1e-9 * std::abs(x(14)));
+  EXPECT_NEAR(moved.bar, bar * twist.dot(x), 1e-8 * std::abs(moved.bar));
+  Vec3 sum = on_left.force;
+  for (const JointForce& joint : moved.left.joints)
+    if (joint.at_carrier) sum += joint.force;
+  sum += moved.left.spring_force * unit(left.spring->moving - left.spring->body);
+  sum += -joining.twist[0] * moved.bar * unit(Vec3{0.1, 0.2, 1});
+  EXPECT_LT(norm(sum), 1e-9 * 5000);
 }
 
 TEST(AxleCompliance, Contract) {

@@ -327,7 +327,7 @@ TEST(Compliance, RedundantCorner) {
   const Compliance locked = solve_compliance(suspension, here, 0, {.spring = 1e4}, Support::spring_held);
   EXPECT_EQ(locked.status, Status::singular);
   EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints constrain the carrier more than once"));
-  EXPECT_THAT(test::message([&] { respond(locked, {}); }),
+  EXPECT_THAT(test::message([&] { respond(locked, WheelLoad{}); }),
               ::testing::StartsWith("respond: the compliance is singular: rigid joints constrain"));
   const Compliance loose = solve_compliance(five, here, 0, {}, Support::spring);
   EXPECT_EQ(loose.status, Status::singular);

@@ -140,6 +140,91 @@ TEST(ComplianceStudy, FollowsCharacteristicsOverTheLoad) {
   EXPECT_LT(std::abs(slope[4]), 0.7 * std::abs(slope[0]));
 }
 
+// A subframe on mounts and a bar between the carriers: they do what each is there for, and vanish at the ends
+// of their stiffness.
+TEST(ComplianceStudy, JoinsBothWheelsByASubframeAndABar) {
+  const std::string bar =
+      "[mechanism.anti_roll_bar]\naxis_m = [[-0.2, 0, -0.15], [-0.2, 0.1, -0.15]]\ndroplink_m = [[0, 0.6, "
+      "-0.1], [0, 0.55, -0.15]]\nattached_to = \"carrier\"\nstiffness_N_m_per_rad = 1500\n";
+  const auto run = [&](const std::string& axle, bool with_bar = false) {
+    std::string text = compliance_study(rods() + "[compliance.axle]\n" + axle, "stiffness_N_per_mm = 30\n");
+    if (with_bar) text = replaced(text, "[mechanism.spring]", bar + "[mechanism.spring]");
+    return run_text(text);
+  };
+  const auto mount = [](const std::string& stiffness) {
+    std::string out;
+    for (const char* point : {"[0.25, 0.4, 0]", "[-0.25, 0.4, 0.1]"})
+      out +=
+          fmt::format("[[compliance.axle.mount]]\npoint_m = {}\naxial_N_per_mm = {}\nradial_N_per_mm = {}\n",
+                      point, stiffness, stiffness);
+    return out;
+  };
+  const study::Result held = run(""), soft = run(mount("3000")), hard = run(mount("1e11")),
+                      barred = run("anti_roll_bar = true\n", true);
+  const auto value = [](const study::Result& of, const char* load, const char* column) {
+    return named(table(of, "axle_compliance"), load, column);
+  };
+  EXPECT_NEAR(value(hard, "lateral, parallel", "left_toe_rad"),
+              value(held, "lateral, parallel", "left_toe_rad"), 1e-8);
+  EXPECT_GT(std::abs(value(soft, "lateral, parallel", "left_camber_rad") -
+                     value(held, "lateral, parallel", "left_camber_rad")),
+            1e-5);
+  // Both wheels up alike do not twist the bar; one up and one down do, and travel less.
+  EXPECT_NEAR(value(barred, "vertical, parallel", "anti_roll_bar_N_m"), 0, 1e-9);
+  EXPECT_NEAR(value(barred, "vertical, parallel", "left_camber_rad"),
+              value(held, "vertical, parallel", "left_camber_rad"), 1e-12);
+  EXPECT_GT(std::abs(value(barred, "vertical, opposing", "anti_roll_bar_N_m")), 10);
+  const auto rise = [](const study::Result& of) {
+    const Table& m = table(of, "axle_compliance_matrix");
+    return m.find("by_left_force_z")->values[2] - m.find("by_right_force_z")->values[2];
+  };
+  EXPECT_LT(rise(barred), 0.9 * rise(held));
+  const Table& matrix = table(soft, "axle_compliance_matrix");
+  for (std::size_t i = 0; i < 12; ++i)
+    for (std::size_t j = 0; j < 12; ++j)
+      EXPECT_NEAR(matrix.columns[j].values[i], matrix.columns[i].values[j], 1e-14);
+  const auto wrong = [&](const std::string& axle) {
+    return problems_of(compliance_study(rods() + "[compliance.axle]\n" + axle, "stiffness_N_per_mm = 30\n"));
+  };
+  EXPECT_THAT(wrong("anti_roll_bar = true\n"),
+              HasSubstr("compliance.axle.anti_roll_bar: there is no anti-roll bar"));
+  EXPECT_THAT(wrong("on_subframe = [\"tie rot\"]\n" + mount("1")), HasSubstr("there is no link 'tie rot'"));
+  EXPECT_THAT(wrong("on_subframe = [\"tie rod\"]\n"), HasSubstr("the subframe has no mounts"));
+}
+
+// Bushings with another stiffness in their second radial direction, and with a moment over their rotation.
+TEST(ComplianceStudy, TakesFramesAndMomentsOfBushings) {
+  const auto camber = [](const std::string& joint) {
+    const study::Result result = run_text(
+        compliance_study("support = \"contact_held\"\n[[compliance.joint]]\nlink = \"lower front rod\"\n"
+                         "end = \"body\"\naxis = [1, 0, 0]\n" +
+                         joint));
+    EXPECT_EQ(result.status, Status::done);
+    return named(table(result, "compliance"), "lateral force camber (deg/kN)", "value");
+  };
+  const double round = camber("axial_N_per_mm = 800\nradial_N_per_mm = 2000\n");
+  // Along y 2000 N/mm, along z 9000 N/mm, or turned by a quarter: the same bushing in another frame.
+  const double upright = camber(
+                   "axial_N_per_mm = 800\nradial_N_per_mm = 2000\nsecond_radial_N_per_mm = 9000\n"
+                   "second_axis = [0, 1, 0]\n"),
+               turned = camber(
+                   "axial_N_per_mm = 800\nradial_N_per_mm = 9000\nsecond_radial_N_per_mm = 2000\n"
+                   "second_axis = [3, 0, 1]\n");
+  EXPECT_NEAR(upright, turned, 1e-12);
+  EXPECT_GT(std::abs(upright - round), 1e-6);
+  const std::string straight = "axial_N_per_mm = 800\nradial_N_per_mm = 2000\n";
+  EXPECT_NEAR(
+      camber(straight + "torsional_N_m_per_rad = 90\nconical_N_m_per_rad = 700\n"),
+      camber(straight + "torsional_curve = { rotation_deg = [0, 10], moment_N_m = [0, 15.707963267948966] }\n"
+                        "conical_curve = { rotation_rad = [0, 0.1, 0.2], moment_N_m = [0, 70, 140] }\n"),
+      1e-12);
+  EXPECT_THAT(
+      problems_of(compliance_study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\n" + straight +
+                                   "conical_N_m_per_rad = 1\nconical_curve = { rotation_deg = [0, 1], "
+                                   "moment_N_m = [0, 1] }\n")),
+      HasSubstr("conical_curve: stands beside the conical stiffness"));
+}
+
 TEST(ComplianceStudyRead, NamesWhatIsWrong) {
   const std::string good = compliance_study(rods());
   EXPECT_THAT(problems_of(replaced(good, "link = \"tie rod\"", "link = \"tie rot\"")),

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkwright/suspension/compliance/coefficients.h"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "linkwright/core/check.h"
 
@@ -86,7 +90,8 @@ ComplianceCoefficients compliance_coefficients(const Compliance& compliance) {
   return out;
 }
 
-AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, double rack_stiffness) {
+AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, double rack_stiffness,
+                               const AxleJoining& joining) {
   for (const Compliance* one : {&left, &right})
     LINKWRIGHT_REQUIRE(one->status == Status::done, "the compliance is {}: {}", to_string(one->status),
                        one->reason);
@@ -94,22 +99,63 @@ AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, 
                      "the first wheel is {}, the second {}", name_of(left.side), name_of(right.side));
   LINKWRIGHT_REQUIRE(rack_stiffness > 0, "rack stiffness {} N/m: positive, infinite for a held rack",
                      rack_stiffness);
-  AxleCompliance out{.left = left, .right = right};
-  // The rack is free at its stiffness: its shift by a load is, by reciprocity, the wheel's motion by the rack
-  // over all that resists the rack.
-  std::array<double, 12> by_rack{};
-  for (int i = 0; i < 6; ++i) {
-    by_rack[i] = left.by_rack[i];
-    by_rack[6 + i] = right.by_rack[i];
-    for (int j = 0; j < 6; ++j) {
-      out.at_centres[i][j] = left.at_centre[i][j];
-      out.at_centres[6 + i][6 + j] = right.at_centre[i][j];
+  AxleCompliance out{.left = left, .right = right, .joining = joining};
+  const std::array<const Compliance*, 2> wheels{&left, &right};
+  for (std::size_t w = 0; w < 2; ++w)
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) out.at_centres[6 * w + i][6 * w + j] = wheels[w]->at_centre[i][j];
+  // Unknown are the shifts of rack and subframe, each in balance with both suspensions, and the moment of the
+  // bar. By reciprocity the force on a part that moves is the motion of the wheels by it.
+  std::vector<std::size_t> moving;
+  if (rack_stiffness < rigid) moving.push_back(0);
+  if (joining.subframe)
+    for (std::size_t i = 1; i < 7; ++i) moving.push_back(i);
+  const bool bar = joining.bar > 0;
+  const std::size_t grounds = moving.size(), count = grounds + (bar ? 1 : 0);
+  if (count == 0) return out;
+  const auto size = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size), by_loads = Eigen::MatrixXd::Zero(size, 12);
+  for (std::size_t w = 0; w < 2; ++w) {
+    const Compliance& wheel = *wheels[w];
+    const auto first = static_cast<Eigen::Index>(6 * w);
+    const double twist = joining.twist[w];
+    for (std::size_t r = 0; r < grounds; ++r) {
+      const auto row = static_cast<Eigen::Index>(r);
+      for (Eigen::Index i = 0; i < 6; ++i)
+        by_loads(row, first + i) = moving[r] == 0
+                                       ? wheel.by_rack[static_cast<std::size_t>(i)]
+                                       : wheel.by_subframe[static_cast<std::size_t>(i)][moving[r] - 1];
+      for (std::size_t c = 0; c < grounds; ++c)
+        a(row, static_cast<Eigen::Index>(c)) += wheel.ground_stiffness[moving[r]][moving[c]];
+      if (bar) {
+        a(row, size - 1) += twist * wheel.droplink_by_ground[moving[r]];
+        a(size - 1, row) -= twist * wheel.droplink_by_ground[moving[r]];
+      }
     }
+    if (!bar) continue;
+    a(size - 1, size - 1) += twist * twist * wheel.droplink_compliance;
+    for (Eigen::Index i = 0; i < 6; ++i)
+      by_loads(size - 1, first + i) = twist * wheel.by_droplink[static_cast<std::size_t>(i)];
   }
-  const double resistance = rack_stiffness + left.rack_stiffness + right.rack_stiffness;
-  for (int i = 0; i < 12; ++i) {
-    out.rack[i] = by_rack[i] / resistance;
-    for (int j = 0; j < 12; ++j) out.at_centres[i][j] += by_rack[i] * by_rack[j] / resistance;
+  for (std::size_t r = 0; r < grounds; ++r)
+    for (std::size_t c = 0; c < grounds; ++c)
+      if (moving[r] == 0 && moving[c] == 0)
+        a(0, 0) += rack_stiffness;
+      else if (moving[r] > 0 && moving[c] > 0)
+        a(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) +=
+            (*joining.subframe)[moving[r] - 1][moving[c] - 1];
+  if (bar) a(size - 1, size - 1) += 1 / joining.bar;
+  const Eigen::MatrixXd found = a.partialPivLu().solve(by_loads);
+  Eigen::MatrixXd sides = by_loads;  // the bar's moment pulls the wheels back
+  if (bar) sides.row(size - 1) *= -1;
+  const Eigen::MatrixXd more = sides.transpose() * found;
+  for (std::size_t j = 0; j < 12; ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    for (std::size_t i = 0; i < 12; ++i) out.at_centres[i][j] += more(static_cast<Eigen::Index>(i), column);
+    for (std::size_t r = 0; r < grounds; ++r)
+      (moving[r] == 0 ? out.rack[j] : out.subframe[moving[r] - 1][j]) =
+          found(static_cast<Eigen::Index>(r), column);
+    if (bar) out.bar[j] = found(size - 1, column);
   }
   return out;
 }
@@ -118,10 +164,25 @@ AxleResponse respond(const AxleCompliance& axle, const WheelLoad& left, const Wh
   const std::array<double, 12> load{left.force.x,  left.force.y,   left.force.z,   left.moment.x,
                                     left.moment.y, left.moment.z,  right.force.x,  right.force.y,
                                     right.force.z, right.moment.x, right.moment.y, right.moment.z};
+  const auto sum = [&](const std::array<double, 12>& row) {
+    double out = 0;
+    for (std::size_t i = 0; i < 12; ++i) out += row[i] * load[i];
+    return out;
+  };
   AxleResponse out;
-  for (int i = 0; i < 12; ++i) out.rack += axle.rack[i] * load[i];
-  out.left = respond(axle.left, left, out.rack);
-  out.right = respond(axle.right, right, out.rack);
+  out.rack = sum(axle.rack);
+  for (std::size_t i = 0; i < 6; ++i) out.subframe[i] = sum(axle.subframe[i]);
+  out.bar = sum(axle.bar);
+  const auto wheel = [&](std::size_t w) {
+    ElasticRow inputs{};
+    std::copy_n(load.begin() + static_cast<std::ptrdiff_t>(6 * w), 6, inputs.begin());
+    inputs[rack_input] = out.rack;
+    std::copy(out.subframe.begin(), out.subframe.end(), inputs.begin() + subframe_input);
+    inputs[droplink_input] = -axle.joining.twist[w] * out.bar;
+    return respond(w == 0 ? axle.left : axle.right, inputs);
+  };
+  out.left = wheel(0);
+  out.right = wheel(1);
   // The steer angle about +z is -toe on the left and +toe on the right.
   out.steer = (out.right.toe - out.left.toe) / 2;
   out.toe_difference = out.left.toe - out.right.toe;

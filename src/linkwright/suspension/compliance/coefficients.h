@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "linkwright/suspension/compliance/compliance.h"
 
@@ -74,21 +75,38 @@ ComplianceCoefficients compliance_coefficients(const Compliance& compliance);
 /// 12 by 12: left wheel centre, then right; x, y, z, about x, y, z in the vehicle frame.
 using Matrix12 = std::array<std::array<double, 12>, 12>;
 
-/// Both wheels of an axle, joined by their rack: by its stiffness against the body (N/m, `rigid` = held).
+/// What joins both wheels of an axle beside their rack.
+struct AxleJoining {
+  /// Stiffness of the mounts of the subframe against the body, for its shift and turn at the vehicle's
+  /// origin; none: it is held.
+  std::optional<Matrix6> subframe;
+  double bar = 0;  ///< anti-roll bar: moment by the twist between its arms, N m/rad
+  /// Twist of the bar by the shift of the left and of the right droplink's end along the droplink, rad/m.
+  std::array<double, 2> twist{};
+};
+
+/// Both wheels of an axle, joined by their rack: by its stiffness against the body (N/m, `rigid` = held), and
+/// by a subframe and an anti-roll bar.
 struct AxleCompliance {
   Compliance left, right;
+  AxleJoining joining;
   Matrix12 at_centres{};
   std::array<double, 12> rack{};  ///< shift of the rack (m, to the left) by loads as in the matrix
+  std::array<std::array<double, 12>, 6> subframe{};  ///< shift and turn of the subframe, likewise
+  std::array<double, 12> bar{};                      ///< moment of the bar (N m), likewise
 };
 /// Both compliances have to be done, and one of a left and one of a right wheel. A suspension without a link
-/// on the rack does not feel it.
-AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, double rack_stiffness);
+/// on the rack does not feel it, nor does one without joints on the subframe or without a droplink.
+AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, double rack_stiffness,
+                               const AxleJoining& joining = {});
 
 struct AxleResponse {
   ElasticResponse left, right;
-  double rack = 0;            ///< m
-  double steer = 0;           ///< rad, mean of both steer angles about +z
-  double toe_difference = 0;  ///< rad, left less right
+  double rack = 0;                   ///< m
+  std::array<double, 6> subframe{};  ///< m, rad
+  double bar = 0;                    ///< moment of the anti-roll bar, N m
+  double steer = 0;                  ///< rad, mean of both steer angles about +z
+  double toe_difference = 0;         ///< rad, left less right
 };
 AxleResponse respond(const AxleCompliance& axle, const WheelLoad& left, const WheelLoad& right);
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
@@ -196,26 +197,55 @@ class Saddle {
   Eigen::PartialPivLU<MatrixXd> lu_;
 };
 
-/// Right-hand sides: unit loads on the carrier, and the rack that takes body joints along by a metre.
+/// Motion of a joint's point on the ground: by the rack, and by the shifts and turns of the subframe.
+struct GroundMotion {
+  Vec3 shift, turn;
+};
+GroundMotion ground_motion(const ElasticJoint& joint, std::size_t input) {
+  if (input == rack_input) return {joint.by_rack, {}};
+  if (!joint.on_subframe) return {};
+  const std::size_t i = (input - subframe_input) % 3;
+  const Vec3 axis{i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
+  return input < subframe_input + 3 ? GroundMotion{axis, {}} : GroundMotion{cross(axis, joint.point), axis};
+}
+/// Its component in the axes of the joint.
+double along(const ElasticJoint& joint, const GroundMotion& motion, int component) {
+  return dot(joint.axes.row[component % 3], component < 3 ? motion.shift : motion.turn);
+}
+
+/// The inputs whose answers a suspension has.
+std::size_t inputs_of(const ElasticAssembly& of) {
+  return of.droplink ? elastic_inputs : of.has_subframe ? droplink_input : subframe_input;
+}
+
+/// Right-hand sides: unit loads on the carrier, ground that takes body joints along, a force of the droplink.
 MatrixXd right_sides(const ElasticAssembly& of, const Saddle& saddle) {
-  MatrixXd out = MatrixXd::Zero(saddle.size(), 7);
+  const std::size_t count = inputs_of(of);
+  MatrixXd out = MatrixXd::Zero(saddle.size(), static_cast<Eigen::Index>(count));
   out.topLeftCorner<6, 6>().setIdentity();
   for (const ElasticJoint& joint : of.joints) {
-    if (joint.by_rack == Vec3{}) continue;
-    for (int i = 0; i < 6; ++i) {
-      const auto along = [&](int k) { return k < 3 ? dot(joint.axes.row[k], joint.by_rack) : 0.0; };
-      if (joint.multiplier[i] >= 0) {
-        out(joint.multiplier[i], 6) = along(i);
-        continue;
+    if (joint.by_rack == Vec3{} && !joint.on_subframe) continue;
+    for (std::size_t input = rack_input; input < std::min(count, droplink_input); ++input) {
+      const GroundMotion motion = ground_motion(joint, input);
+      const auto column = static_cast<Eigen::Index>(input);
+      for (int i = 0; i < 6; ++i) {
+        if (joint.multiplier[i] >= 0) {
+          out(joint.multiplier[i], column) = along(joint, motion, i);
+          continue;
+        }
+        double pull = 0;
+        if (joint.stiffness.matrix)
+          for (int j = 0; j < 6; ++j) pull += (*joint.stiffness.matrix)[i][j] * along(joint, motion, j);
+        else
+          pull = (i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3]) *
+                 along(joint, motion, i);
+        out.block<6, 1>(6 * joint.second, column) += pull * joint_row(of, joint, i).tail<6>();
       }
-      double pull = 0;
-      if (joint.stiffness.matrix)
-        for (int j = 0; j < 6; ++j) pull += (*joint.stiffness.matrix)[i][j] * along(j);
-      else if (i < 3)
-        pull = joint.stiffness.translation[i] * along(i);
-      out.block<6, 1>(6 * joint.second, 6) += pull * joint_row(of, joint, i).tail<6>();
     }
   }
+  if (of.droplink)
+    out.block<6, 1>(6 * of.droplink->body, droplink_input) =
+        point_row(of, of.droplink->body, of.droplink->at, of.droplink->along);
   return out;
 }
 
@@ -244,13 +274,12 @@ SpringForce beyond_offset(const ElasticJoint& joint, int component, double relat
   return out;
 }
 
-/// Force and moment on the second body.
+/// Force and moment on the second body; `moved` is the motion of the first one where that is the ground.
 std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const Solution& x,
-                                double rack) {
+                                const GroundMotion& moved = {}) {
   std::array<double, 6> relative{};
   for (int i = 0; i < 6; ++i) {
-    relative[i] = elongation(joint_row(of, joint, i), joint.first, joint.second, x);
-    if (i < 3) relative[i] -= rack * dot(joint.axes.row[i], joint.by_rack);
+    relative[i] = elongation(joint_row(of, joint, i), joint.first, joint.second, x) - along(joint, moved, i);
   }
   std::array<Vec3, 2> out{};
   for (int i = 0; i < 6; ++i) {
@@ -289,7 +318,7 @@ Block turn_block(const Matrix3d& m) {
 void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad& load, Saddle& to) {
   to.add(0, 0, -turn_block(turning_arm(load.force, of.arm(0, load.point))));
   for (const ElasticJoint& joint : of.joints) {
-    const auto [on_second, turning] = joint_force(of, joint, x, 0);
+    const auto [on_second, turning] = joint_force(of, joint, x);
     const Vec3 force = -on_second;  // derivative of the energy by the relative displacement
     const int a = joint.first, b = joint.second;
     const Vec3 rb = of.arm(b, joint.point);
@@ -493,7 +522,7 @@ AtRest at_rest(const Suspension& suspension, const CornerPlace& place, double ra
   }
   out.loaded = *found;
   for (const ElasticJoint& joint : out.assembly.joints) {
-    const auto [force, moment] = joint_force(out.assembly, joint, out.loaded, 0);
+    const auto [force, moment] = joint_force(out.assembly, joint, out.loaded);
     out.held.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
   }
   out.preloaded = out.assembly;
@@ -512,6 +541,7 @@ Compliance linear_answer(AtRest& rest, const std::optional<PointLoad>& preload) 
     return out;
   }
   const MatrixXd right = right_sides(assembly, saddle), x = saddle.solve(right);
+  const std::size_t count = inputs_of(assembly);
 
   Block centre = x.topLeftCorner<6, 6>();
   centre = 0.5 * (centre + centre.transpose()).eval();
@@ -525,22 +555,44 @@ Compliance linear_answer(AtRest& rest, const std::optional<PointLoad>& preload) 
     const ElasticJoint& joint = assembly.joints[i];
     JointTransfer& transfer = out.joints.emplace_back();
     transfer.joint = preload ? rest.held[i] : JointForce{joint.link, joint.at_carrier, joint.point, {}, {}};
-    for (int load = 0; load < 7; ++load) {
-      const auto [force, moment] = joint_force(assembly, joint, x.col(load), load == 6 ? 1 : 0);
+    for (std::size_t input = 0; input < count; ++input) {
+      const bool of_ground = input >= rack_input && input < droplink_input;
+      const auto [force, moment] = joint_force(assembly, joint, x.col(static_cast<Eigen::Index>(input)),
+                                               of_ground ? ground_motion(joint, input) : GroundMotion{});
       const std::array<double, 6> all{force.x, force.y, force.z, moment.x, moment.y, moment.z};
-      for (int k = 0; k < 6; ++k) transfer.by[k][load] = all[k];
-      // The rack pushes with what the links give to it.
-      if (load == 6) out.rack_stiffness += dot(force, joint.by_rack);
+      for (std::size_t k = 0; k < 6; ++k) transfer.by[k][input] = all[k];
+      // Rack and subframe push with what the links give to them.
+      for (std::size_t other = rack_input; of_ground && other < std::min(count, droplink_input); ++other) {
+        const GroundMotion by = ground_motion(joint, other);
+        out.ground_stiffness[other - rack_input][input - rack_input] +=
+            dot(force, by.shift) + dot(moment, by.turn);
+      }
     }
+  }
+  out.rack_stiffness = out.ground_stiffness[0][0];
+  if (count > subframe_input)
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) out.by_subframe[i][j] = x(i, subframe_input + j);
+  if (const auto& end = assembly.droplink) {
+    const auto row = point_row(assembly, end->body, end->at, end->along);
+    const auto moved = [&](std::size_t input) {
+      return row.dot(x.col(static_cast<Eigen::Index>(input)).segment<6>(6 * end->body));
+    };
+    for (int i = 0; i < 6; ++i) out.by_droplink[i] = x(i, droplink_input);
+    for (std::size_t i = 0; i < 7; ++i) out.droplink_by_ground[i] = moved(rack_input + i);
+    out.droplink_compliance = moved(droplink_input);
   }
   constexpr double none = nan;
   const bool by_spring = out.support == Support::spring || out.support == Support::spring_held;
   out.couplers.resize(assembly.couplers.size());
-  for (int load = 0; load < 7; ++load) {
+  if (!by_spring) out.spring.fill(none);
+  if (saddle.height() < 0) out.height.fill(none);
+  for (std::size_t input = 0; input < count; ++input) {
+    const auto column = x.col(static_cast<Eigen::Index>(input));
     for (std::size_t i = 0; i < assembly.couplers.size(); ++i)
-      out.couplers[i][load] = tension(assembly, assembly.couplers[i], x.col(load));
-    out.spring[load] = by_spring ? -tension(assembly, *assembly.spring, x.col(load)) : none;
-    out.height[load] = saddle.height() >= 0 ? -x(saddle.height(), load) : none;
+      out.couplers[i][input] = tension(assembly, assembly.couplers[i], column);
+    if (by_spring) out.spring[input] = -tension(assembly, *assembly.spring, column);
+    if (saddle.height() >= 0) out.height[input] = -column(saddle.height());
   }
   return out;
 }
@@ -583,7 +635,7 @@ LoadedCompliance solve_loaded(const Suspension& suspension, const CornerPlace& p
   ElasticAssembly& assembly = rest.assembly;
   out.response = response_of(rest.compliance, {(*x)(0), (*x)(1), (*x)(2)}, {(*x)(3), (*x)(4), (*x)(5)});
   for (const ElasticJoint& joint : assembly.joints) {
-    const auto [force, moment] = joint_force(assembly, joint, *x, 0);
+    const auto [force, moment] = joint_force(assembly, joint, *x);
     out.response.joints.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
   }
   for (const ElasticBar& bar : assembly.couplers) out.response.couplers.push_back(tension(assembly, bar, *x));
@@ -597,19 +649,25 @@ LoadedCompliance solve_loaded(const Suspension& suspension, const CornerPlace& p
 }
 
 ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, double rack) {
+  return respond(compliance, ElasticRow{load.force.x, load.force.y, load.force.z, load.moment.x,
+                                        load.moment.y, load.moment.z, rack});
+}
+
+ElasticResponse respond(const Compliance& compliance, const ElasticRow& inputs) {
   LINKWRIGHT_REQUIRE(compliance.status == Status::done, "the compliance is {}: {}",
                      to_string(compliance.status), compliance.reason);
-  const std::array<double, 7> by{load.force.x,  load.force.y,  load.force.z, load.moment.x,
-                                 load.moment.y, load.moment.z, rack};
-  const auto sum = [&](const std::array<double, 7>& row) {
+  const auto sum = [&](const ElasticRow& row) {
     double out = 0;
-    for (int i = 0; i < 7; ++i) out += row[i] * by[i];
+    for (std::size_t i = 0; i < elastic_inputs; ++i) out += row[i] * inputs[i];
     return out;
   };
   std::array<double, 6> moved{};
-  for (int i = 0; i < 6; ++i) {
-    moved[i] = compliance.by_rack[i] * rack;
-    for (int j = 0; j < 6; ++j) moved[i] += compliance.at_centre[i][j] * by[j];
+  for (std::size_t i = 0; i < 6; ++i) {
+    moved[i] =
+        compliance.by_rack[i] * inputs[rack_input] + compliance.by_droplink[i] * inputs[droplink_input];
+    for (std::size_t j = 0; j < 6; ++j)
+      moved[i] +=
+          compliance.at_centre[i][j] * inputs[j] + compliance.by_subframe[i][j] * inputs[subframe_input + j];
   }
   ElasticResponse out =
       response_of(compliance, {moved[0], moved[1], moved[2]}, {moved[3], moved[4], moved[5]});
@@ -621,7 +679,7 @@ ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, dou
     joint.moment = {sum(transfer.by[3]), sum(transfer.by[4]), sum(transfer.by[5])};
     out.joints.push_back(joint);
   }
-  for (const auto& row : compliance.couplers) out.couplers.push_back(sum(row));
+  for (const ElasticRow& row : compliance.couplers) out.couplers.push_back(sum(row));
   return out;
 }
 

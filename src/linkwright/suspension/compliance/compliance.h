@@ -52,11 +52,16 @@ struct JointForce {
   Vec3 force, moment;
 };
 
-/// Answer of a joint to unit loads: columns 0 to 5 force along and moment about x, y, z at the wheel centre,
-/// 6 a metre of rack. Rows: force, moment.
+/// What acts on a suspension, as the columns of its answers: 0 to 5 force along and moment about x, y, z at
+/// the wheel centre (N, N m), 6 the rack (m), 7 to 12 shift along and turn about x, y, z of the subframe at
+/// the vehicle's origin (m, rad), 13 the force of the droplink along its line (N).
+inline constexpr std::size_t elastic_inputs = 14, rack_input = 6, subframe_input = 7, droplink_input = 13;
+using ElasticRow = std::array<double, elastic_inputs>;
+
+/// Answer of a joint to unit inputs. Rows: force, moment.
 struct JointTransfer {
   JointForce joint;  ///< joint and its position; its force and moment are those of the preload
-  std::array<std::array<double, 7>, 6> by{};
+  std::array<ElasticRow, 6> by{};
 };
 
 /// A suspension with elastic joints at a position. Rows and columns of matrices: x, y, z, about x, y, z.
@@ -72,13 +77,21 @@ struct Compliance {
   /// same at the contact for the point of the carrier there. Symmetric; positive definite with the spring
   /// active and all directions elastic, else semidefinite.
   Matrix6 at_centre{}, at_contact{};
-  std::array<double, 6> by_rack{};    ///< motion without load by a metre of rack (m/m, rad/m)
-  double rack_stiffness = 0;          ///< N/m, of the suspension against its rack without load on the wheel
-  std::vector<JointTransfer> joints;  ///< links in their order, joints at the body first
+  std::array<double, 6> by_rack{};  ///< motion without load by a metre of rack (m/m, rad/m)
+  double rack_stiffness = 0;        ///< N/m, of the suspension against its rack without load on the wheel
+  /// Motion of the carrier (rows) by unit shifts and turns of the subframe, without load; zero without one.
+  Matrix6 by_subframe{};
+  /// Force on the rack and force and moment on the subframe that move them, without load on the wheel: rows
+  /// and columns rack, subframe.
+  std::array<std::array<double, 7>, 7> ground_stiffness{};
+  std::array<double, 6> by_droplink{};         ///< motion of the carrier by a newton of the droplink
+  std::array<double, 7> droplink_by_ground{};  ///< of its end along it, by rack and subframe
+  double droplink_compliance = 0;              ///< of its end along it, by its own force (m/N)
+  std::vector<JointTransfer> joints;           ///< links in their order, joints at the body first
   /// Tension of each coupler (N), compression of the spring (N, force with which it pushes its ends apart)
-  /// and upward force of a held height on the carrier (N), by unit loads as in `JointTransfer`. NaN = none.
-  std::vector<std::array<double, 7>> couplers;
-  std::array<double, 7> spring{}, height{};
+  /// and upward force of a held height on the carrier (N), by unit inputs as in `JointTransfer`. NaN = none.
+  std::vector<ElasticRow> couplers;
+  ElasticRow spring{}, height{};
 };
 
 /// Assembles and solves the suspension at a position of its carrier, as the kinematic solver or the reference
@@ -105,6 +118,8 @@ struct ElasticResponse {
   std::vector<double> couplers;  ///< N, more tension
 };
 ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, double rack = 0);
+/// The same by any inputs of a suspension.
+ElasticResponse respond(const Compliance& compliance, const ElasticRow& inputs);
 
 /// A load that is not small for the characteristics of the joints.
 struct LoadedCompliance {

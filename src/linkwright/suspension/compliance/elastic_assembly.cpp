@@ -52,6 +52,8 @@ class Builder {
     if (suspension.spring && acts_directly(*suspension.spring))
       of_.spring = {ground, suspension.spring->link < 0 ? 0 : body_[suspension.spring->link],
                     suspension.spring->body, spring_end(suspension, place, rack), elasticity.spring};
+    if (const auto& end = elasticity.droplink)
+      of_.droplink = {end->link < 0 ? 0 : body_[static_cast<std::size_t>(end->link)], end->at, end->along};
   }
 
   ElasticAssembly take() { return std::move(of_); }
@@ -86,11 +88,13 @@ class Builder {
                            .link = index,
                            .point = point,
                            .by_rack = carrier ? Vec3{} : by_rack(*of_.suspension, index, point, rack_),
+                           .on_subframe = !carrier && elasticity.on_subframe,
                            .axes = axes_of(stiffness, standard, rotation),
                            .stiffness = stiffness};
         for (int i = 0; i < 6; ++i)
           if (const auto& curve = stiffness.curves[i])
             joint.stiffness.component(i) = force_of(*curve, 0).stiffness;
+        of_.has_subframe = of_.has_subframe || joint.on_subframe;
         of_.joints.push_back(joint);
       };
       if (given.size() == 2) {

@@ -24,7 +24,8 @@ struct ElasticJoint {
   Vec3 point;
   Vec3 by_rack;  ///< derivative of the first body's point by the rack displacement; zero if the rack moves
                  ///< none
-  Mat3 axes;     ///< its rows
+  bool on_subframe = false;  ///< the first body's point moves with the subframe
+  Mat3 axes;                 ///< its rows
   JointStiffness stiffness;
   std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< multipliers of rigid components; -1 = none
   /// Displacement on the characteristics from which motion counts (m, rad).
@@ -38,6 +39,12 @@ struct ElasticBar {
   Vec3 from, to;
   double stiffness = 0;
   int multiplier = -1;
+};
+
+/// A force on a body at a point, from a part that the assembly does not have.
+struct ElasticPoint {
+  int body = 0;
+  Vec3 at, along;
 };
 
 /// A turn of a body that no joint of it resists: of an SS link and a strut about their line, which no force
@@ -59,7 +66,9 @@ struct ElasticAssembly {
   std::vector<ElasticBar> couplers;
   std::optional<ElasticBar> spring;
   std::vector<HeldTurn> held_turns;
-  Vec3 height_arm;  ///< from the wheel centre to the point whose height can be held
+  std::optional<ElasticPoint> droplink;
+  bool has_subframe = false;  ///< any joint is on it
+  Vec3 height_arm;            ///< from the wheel centre to the point whose height can be held
 
   int displacements() const { return 6 * static_cast<int>(origin.size()); }
   Vec3 arm(int body, const Vec3& point) const { return point - origin[body]; }

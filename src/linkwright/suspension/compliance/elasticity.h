@@ -52,12 +52,21 @@ JointStiffness ball_joint(double stiffness);
 /// of a wishbone; then rigid ones can hold the link more than once. R and S take joints at the body only.
 struct LinkElasticity {
   std::vector<JointStiffness> body, carrier;
+  bool on_subframe = false;  ///< its joints at the body are on the subframe
+};
+
+/// The end of a droplink at the wheel, in the present position.
+struct DroplinkEnd {
+  int link = -1;  ///< link that it is on, -1 = the carrier
+  Vec3 at;        ///< m
+  Vec3 along;     ///< unit vector along the droplink
 };
 
 struct CornerElasticity {
-  std::vector<LinkElasticity> links;  ///< none (all rigid), or one a link
-  std::vector<double> couplers;       ///< along their line (N/m); none (rigid), or one a coupler
-  double spring = 0;                  ///< along its line, N/m
+  std::vector<LinkElasticity> links;    ///< none (all rigid), or one a link
+  std::vector<double> couplers;         ///< along their line (N/m); none (rigid), or one a coupler
+  double spring = 0;                    ///< along its line, N/m
+  std::optional<DroplinkEnd> droplink;  ///< where a bar between the wheels of an axle acts
 };
 
 /// Rods that yield along their line only (rod and both joints in series, N/m); every link has to be a rod.

@@ -26,17 +26,19 @@ int link_index(const Suspension& suspension, const std::string& name) {
 bool is_rod(LinkType type) { return type == LinkType::US || type == LinkType::SS; }
 
 /// A curve that begins at 0 is continued by its image.
-ForceCurve curve_of(const BushingCurveForm& form) {
-  ForceCurve out{form.displacement, form.force};
+ForceCurve curve_of(const std::vector<double>& displacement, const std::vector<double>& force) {
+  ForceCurve out{displacement, force};
   if (out.compression.empty() || out.force.size() != out.compression.size() || out.compression[0] != 0 ||
       out.force[0] != 0)
     return out;
-  for (std::size_t i = 1; i < form.force.size(); ++i) {
-    out.compression.insert(out.compression.begin(), -form.displacement[i]);
-    out.force.insert(out.force.begin(), -form.force[i]);
+  for (std::size_t i = 1; i < force.size(); ++i) {
+    out.compression.insert(out.compression.begin(), -displacement[i]);
+    out.force.insert(out.force.begin(), -force[i]);
   }
   return out;
 }
+ForceCurve curve_of(const BushingCurveForm& form) { return curve_of(form.displacement, form.force); }
+ForceCurve curve_of(const BushingMomentCurveForm& form) { return curve_of(form.rotation, form.moment); }
 
 JointStiffness stiffness_of(const JointForm& j) {
   if (j.stiffness)
@@ -46,6 +48,11 @@ JointStiffness stiffness_of(const JointForm& j) {
       bushing(j.axial.value_or(0), j.radial.value_or(0), j.torsional, j.conical, {axis[0], axis[1], axis[2]});
   if (j.axial_curve) out.curves[0] = curve_of(*j.axial_curve);
   if (j.radial_curve) out.curves[1] = out.curves[2] = curve_of(*j.radial_curve);
+  if (j.torsional_curve) out.curves[3] = curve_of(*j.torsional_curve);
+  if (j.conical_curve) out.curves[4] = out.curves[5] = curve_of(*j.conical_curve);
+  if (j.second_radial) out.translation[2] = *j.second_radial;
+  if (j.second_conical) out.rotation[2] = *j.second_conical;
+  if (j.second_axis) out.across = {(*j.second_axis)[0], (*j.second_axis)[1], (*j.second_axis)[2]};
   return out;
 }
 
@@ -363,25 +370,28 @@ void add_over_travel(study::Result& result, const LoadedCorner& corner, const Sw
 /// Standard cases on both wheels (1 kN or 100 N m each).
 Table axle_cases_table(const AxleCompliance& axle) {
   Table table{.name = "axle_compliance"};
-  std::array<std::vector<double>, 7> c;
+  std::array<std::vector<double>, 8> c;
   for (const LoadCase load : told_cases)
     for (const Pairing pairing : {Pairing::parallel, Pairing::opposing}) {
       table.names.push_back(fmt::format("{}, {}", name_of(load), name_of(pairing)));
       const double size = load == LoadCase::aligning_torque ? per_100_newton_metres : per_kilonewton;
       const AxleResponse r = respond(axle, load, pairing);
-      const std::array<double, 7> row{r.steer,     r.toe_difference, r.left.toe, r.left.camber,
-                                      r.right.toe, r.right.camber,   r.rack};
+      const std::array<double, 8> row{r.steer,     r.toe_difference, r.left.toe, r.left.camber,
+                                      r.right.toe, r.right.camber,   r.rack,     r.bar};
       for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(size * row[i]);
     }
-  constexpr std::array<std::pair<const char*, const char*>, 7> keys{
+  constexpr std::array<std::pair<const char*, const char*>, 8> keys{
       {{"steer_rad", "mean steer angle, to the left (rad)"},
        {"toe_difference_rad", "toe of the left wheel less that of the right one (rad)"},
        {"left_toe_rad", "left wheel: change of toe (rad)"},
        {"left_camber_rad", "left wheel: change of camber (rad)"},
        {"right_toe_rad", "right wheel: change of toe (rad)"},
        {"right_camber_rad", "right wheel: change of camber (rad)"},
-       {"rack_m", "shift of the rack, to the left (m)"}}};
-  for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
+       {"rack_m", "shift of the rack, to the left (m)"},
+       {"anti_roll_bar_N_m", "moment of the anti-roll bar (N m)"}}};
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (axle.joining.bar > 0 || std::string_view(keys[i].first) != "anti_roll_bar_N_m")
+      table.add(keys[i].first, keys[i].second, c[i]);
   return table;
 }
 
@@ -410,8 +420,46 @@ Table axle_matrix_table(const AxleCompliance& axle) {
 /// The same joints at the other wheel.
 ComplianceForm mirrored(ComplianceForm form) {
   for (JointForm& j : form.joints)
-    if (j.axis) (*j.axis)[1] = -(*j.axis)[1];
+    for (auto* axis : {&j.axis, &j.second_axis})
+      if (*axis) (**axis)[1] = -(**axis)[1];
   return form;
+}
+
+/// Stiffness of mounts for the shift and turn of what they carry, at the vehicle's origin.
+Matrix6 stiffness_of(const std::vector<MountForm>& mounts) {
+  Matrix6 out{};
+  const auto add = [&](const MountForm& m, double side) {
+    const Vec3 at{m.point[0], side * m.point[1], m.point[2]},
+        axis = unit(Vec3{m.axis[0], side * m.axis[1], m.axis[2]});
+    const auto beside = math::across(axis);
+    for (const auto& [along, stiffness] :
+         {std::pair{axis, m.axial}, std::pair{beside[0], m.radial}, std::pair{beside[1], m.radial}}) {
+      const Vec3 turn = cross(at, along);
+      const std::array<double, 6> row{along.x, along.y, along.z, turn.x, turn.y, turn.z};
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j) out[i][j] += stiffness * row[i] * row[j];
+    }
+  };
+  for (const MountForm& m : mounts) {
+    add(m, 1);
+    if (m.both_sides) add(m, -1);
+  }
+  return out;
+}
+
+/// The droplink of the anti-roll bar at a wheel at the reference, and the twist of the bar by the shift of
+/// its end: angles of the arm are those of the mirror image on the right side.
+struct DroplinkOfWheel {
+  DroplinkEnd end;
+  double twist = 0;  ///< rad/m; of mirrored arms the right one has the opposite sign
+};
+DroplinkOfWheel droplink_of(const CornerDescription& wheel) {
+  const Rocker& arm = wheel.suspension.rockers[wheel.springs.anti_roll_bar->rocker];
+  const auto& on = arm.driven_by;
+  const Vec3 along = unit(on.at - arm.rod), axis = unit(arm.axis[1] - arm.axis[0]);
+  const double lever = dot(cross(axis, arm.rod - arm.axis[0]), along);
+  // tau = b_l - b_r, and b_r counts left-handed about the axis of its own side.
+  return {{on.part.kind == PartKind::link ? static_cast<int>(on.part.index) : -1, on.at, along}, 1 / lever};
 }
 
 /// Nothing, with a remark, where a wheel has no reference position, no such link or no answer.
@@ -429,11 +477,49 @@ std::optional<Compliance> compliance_of_wheel(study::Result& result, const Corne
   if (reference.status != Status::done) return {};
   std::optional<PointLoad> preload;
   if (form.preload) preload = PointLoad{plan.contact, {0, 0, *form.preload}};
-  Compliance out = solve_compliance(wheel.suspension, reference.place, 0, elasticity_of(wheel, form),
-                                    *form.support, preload);
+  CornerElasticity elasticity = elasticity_of(wheel, form);
+  const std::vector<std::string>& held = form.axle->on_subframe;
+  for (std::size_t i = 0; i < elasticity.links.size() && !form.axle->mounts.empty(); ++i)
+    elasticity.links[i].on_subframe =
+        held.empty() || std::find(held.begin(), held.end(), wheel.suspension.links[i].name) != held.end();
+  if (form.axle->anti_roll_bar) elasticity.droplink = droplink_of(wheel).end;
+  Compliance out = solve_compliance(wheel.suspension, reference.place, 0, elasticity, *form.support, preload);
   if (out.status == Status::done) return out;
   warn("compliance.axle", "no compliance of the other wheel: " + out.reason, {});
   return {};
+}
+
+/// Checks `[compliance.axle]`; false if there is a problem.
+bool check_axle(study::ObjectReader& table, const ComplianceAxleForm& form,
+                const CornerDescription& description) {
+  bool good = true;
+  const auto wrong = [&](std::string_view key, std::string message, std::string hint) {
+    table.error(key, std::move(message), std::move(hint));
+    good = false;
+  };
+  const auto& bar = description.springs.anti_roll_bar;
+  if (form.anti_roll_bar && !bar)
+    wrong("anti_roll_bar", "there is no anti-roll bar", "add [mechanism.anti_roll_bar]");
+  else if (form.anti_roll_bar && (bar->post_top || !(bar->stiffness > 0)))
+    wrong("anti_roll_bar", bar->post_top ? "the bar is a T bar" : "the bar has no stiffness",
+          "it is taken of a U bar with stiffness_N_m_per_rad");
+  else if (form.anti_roll_bar &&
+           description.suspension.rockers[bar->rocker].driven_by.part.kind == PartKind::rocker)
+    wrong("anti_roll_bar", "its droplink is on a rocker, which the elastic joints do not hold",
+          "it is taken where the droplink is on the carrier or a link");
+  std::vector<std::string_view> known;
+  for (const CornerLink& l : description.suspension.links) known.emplace_back(l.name);
+  for (const std::string& name : form.on_subframe)
+    if (link_index(description.suspension, name) < 0) {
+      table.no_such("on_subframe", "link", name, known);
+      good = false;
+    }
+  if (!form.on_subframe.empty() && form.mounts.empty())
+    wrong("on_subframe", "the subframe has no mounts", "add [[compliance.axle.mount]]");
+  for (const MountForm& m : form.mounts)
+    if (!(norm(Vec3{m.axis[0], m.axis[1], m.axis[2]}) > 0))
+      wrong("mount", "an axis has no direction", "for example [0, 0, 1]");
+  return good;
 }
 
 void add_axle_compliance(study::Result& result, const CornerDescription& description,
@@ -443,7 +529,14 @@ void add_axle_compliance(study::Result& result, const CornerDescription& descrip
   const auto left = compliance_of_wheel(result, both.left, is_left ? form : mirrored(form));
   const auto right = compliance_of_wheel(result, both.right, is_left ? mirrored(form) : form);
   if (!left || !right) return;
-  const AxleCompliance axle = axle_compliance(*left, *right, form.axle->rack_stiffness.value_or(rigid));
+  AxleJoining joining;
+  if (!form.axle->mounts.empty()) joining.subframe = stiffness_of(form.axle->mounts);
+  if (form.axle->anti_roll_bar) {
+    joining.bar = description.springs.anti_roll_bar->stiffness;
+    joining.twist = {droplink_of(both.left).twist, droplink_of(both.right).twist};
+  }
+  const AxleCompliance axle =
+      axle_compliance(*left, *right, form.axle->rack_stiffness.value_or(rigid), joining);
   result.tables.push_back(axle_cases_table(axle));
   result.tables.push_back(axle_matrix_table(axle));
 }
@@ -477,6 +570,15 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     if (!j.end && !j.stiffness && is_rod(type))
       wrong("stiffness", "is missing",
             "write stiffness_N_per_mm, or end and axial_N_per_mm, radial_N_per_mm");
+    if (j.torsional != 0 && j.torsional_curve)
+      wrong("torsional_curve", "stands beside the torsional stiffness", "leave one of them");
+    if (j.conical != 0 && j.conical_curve)
+      wrong("conical_curve", "stands beside the conical stiffness", "leave one of them");
+    if (!j.end &&
+        (j.torsional_curve || j.conical_curve || j.second_radial || j.second_conical || j.second_axis))
+      wrong("end", "is missing: a bushing is at one end of its link", "write end = \"body\" or \"carrier\"");
+    if ((j.second_radial && j.radial_curve) || (j.second_conical && j.conical_curve))
+      wrong("second_radial", "stands beside a curve of both directions", "leave one of them");
     const bool axial = j.axial || j.axial_curve, radial = j.radial || j.radial_curve;
     if (j.axial && j.axial_curve)
       wrong("axial_curve", "stands beside the axial stiffness", "leave one of them");
@@ -515,6 +617,8 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
                  "take support = \"contact_held\" or \"wheel_centre_held\", without preload");
     good = false;
   }
+  if (auto axle = table->table("axle"); axle && form.axle)
+    good = check_axle(*axle, *form.axle, description) && good;
   if (!good) return;
   for (const Diagnostic& d : check(suspension, elasticity_of(description, form)))
     table->error("joint", to_string(d.message), to_string(d.hint));

@@ -35,6 +35,16 @@ void fields(Visitor&& visit, BushingCurveForm& c) {
         c.force);
 }
 
+/// The moment of a bushing over its rotation.
+struct BushingMomentCurveForm {
+  std::vector<double> rotation, moment;
+};
+template <class Visitor>
+void fields(Visitor&& visit, BushingMomentCurveForm& c) {
+  visit(field::angle("rotation", "ascending; from 0: it is the same both ways").required(), c.rotation);
+  visit(field::torque("moment", "at these rotations, ascending, 0 without rotation").required(), c.moment);
+}
+
 /// `[[compliance.joint]]`: a bushing, a ball joint (only `stiffness`), or both joints of a rod in series
 /// (`end` left out).
 struct JointForm {
@@ -43,8 +53,10 @@ struct JointForm {
   std::optional<double> stiffness;  ///< N/m
   std::optional<double> axial, radial;
   double torsional = 0, conical = 0;
+  std::optional<double> second_radial, second_conical;
   std::optional<BushingCurveForm> axial_curve, radial_curve;
-  std::optional<std::array<double, 3>> axis;
+  std::optional<BushingMomentCurveForm> torsional_curve, conical_curve;
+  std::optional<std::array<double, 3>> axis, second_axis;
 };
 template <class Visitor>
 void fields(Visitor&& visit, JointForm& j) {
@@ -60,14 +72,32 @@ void fields(Visitor&& visit, JointForm& j) {
   visit(stiffness("radial", "of a bushing, across its axis", Dimension::stiffness), j.radial);
   visit(stiffness("torsional", "of a bushing, about its axis", Dimension::stiffness_angular), j.torsional);
   visit(stiffness("conical", "of a bushing, about axes across", Dimension::stiffness_angular), j.conical);
+  visit(stiffness("second_radial", "of a bushing, across both its axes; default: the radial one",
+                  Dimension::stiffness),
+        j.second_radial);
+  visit(
+      stiffness("second_conical", "of a bushing, about the direction across both its axes; default: conical",
+                Dimension::stiffness_angular),
+      j.second_conical);
   visit(field::entry("axial_curve", "its force along its axis, instead of the axial stiffness"),
         j.axial_curve);
   visit(field::entry("radial_curve", "its force in each of two directions across, instead of the stiffness"),
         j.radial_curve);
+  visit(field::entry("torsional_curve", "its moment about its axis, instead of the torsional stiffness"),
+        j.torsional_curve);
+  visit(field::entry("conical_curve",
+                     "its moment about each of two directions across, instead of the stiffness"),
+        j.conical_curve);
   visit(field::entry("axis",
                      "of a bushing, of any length; default: the hinge of the link, or the line of a rod")
             .between(-1e6, 1e6),
         j.axis);
+  visit(
+      field::entry("second_axis",
+                   "of a bushing, of any length: the direction across its axis in which the radial stiffness "
+                   "acts; default: any")
+          .between(-1e6, 1e6),
+      j.second_axis);
 }
 
 enum class LoadPlace { contact, wheel_centre };
@@ -92,14 +122,39 @@ void fields(Visitor&& visit, LoadForm& l) {
         l.steps);
 }
 
+/// `[[compliance.axle.mount]]`: a bushing between subframe and body.
+struct MountForm {
+  std::array<double, 3> point{};
+  std::array<double, 3> axis{0, 0, 1};
+  double axial = 0, radial = 0;
+  bool both_sides = true;
+};
+template <class Visitor>
+void fields(Visitor&& visit, MountForm& m) {
+  visit(field::length("point", "its place in the vehicle's frame").between(-1e3, 1e3).required(), m.point);
+  visit(field::entry("axis", "its direction, of any length").between(-1e6, 1e6), m.axis);
+  visit(field::stiffness("axial", "along its axis").between(0, 1e15).required(), m.axial);
+  visit(field::stiffness("radial", "across its axis").between(0, 1e15).required(), m.radial);
+  visit(field::entry("both_sides", "there is another one, its mirror image"), m.both_sides);
+}
+
 /// `[compliance.axle]`: both wheels, joined by their rack.
 struct ComplianceAxleForm {
   std::optional<double> rack_stiffness;
+  bool anti_roll_bar = false;
+  std::vector<std::string> on_subframe;
+  std::vector<MountForm> mounts;
 };
 template <class Visitor>
 void fields(Visitor&& visit, ComplianceAxleForm& a) {
   visit(field::stiffness("rack_stiffness", "of the rack against the body; default: held").between(1, 1e15),
         a.rack_stiffness);
+  visit(field::entry("anti_roll_bar", "the bar of the mechanism joins both wheels"), a.anti_roll_bar);
+  visit(field::entry("on_subframe",
+                     "names of links whose joints at the body are on the subframe; default with mounts: all. "
+                     "The rack goes with its link"),
+        a.on_subframe);
+  visit(field::entry("mount", "bushings of the subframe"), a.mounts);
 }
 
 struct ComplianceForm {
