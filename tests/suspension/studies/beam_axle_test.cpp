@@ -97,7 +97,7 @@ TEST(BeamAxleStudy, JoinsTheOtherAxleOfTheVehicle) {
   EXPECT_NEAR(height, rear * (2.6 - behind), 1e-9);
   EXPECT_NE(fact(result, "pitch centre in braking"), "no fact");
   EXPECT_THAT(problems_of(whole_axle + axle_vehicle + "[vehicle.other_axle]\nroll_centre_height_mm = 60\n"),
-              HasSubstr("vehicle.other_axle.support_angle_rad: this key is missing"));
+              HasSubstr("vehicle.other_axle.support_angle: is missing"));
 }
 
 TEST(BeamAxleStudy, RollsASymmetricAxleAlikeBothWays) {
@@ -124,6 +124,37 @@ TEST(BeamAxleStudy, LiftsTheLeftWheelAlone) {
   EXPECT_NEAR(std::sin(cell(single, "roll_rad", 2)), 0.05 / 1.5, 1e-5);  // its wheel centres are 1.5 m apart
   EXPECT_NEAR(cell(single, "left_camber_rad", 2), -cell(single, "roll_rad", 2), 1e-4);
   EXPECT_NEAR(cell(single, "left_road_camber_rad", 2), 0, 1e-4);
+}
+
+const std::string knuckles =
+    "[mechanism.steering]\nkingpin_mm = [[10, 690, 220], [-5, 660, 430]]\npitman_axis_mm = [[750, 450, 600], "
+    "[750, 550, 600]]\ndrag_link_mm = [[740, 560, 360], [20, 550, 440]]\ntrack_rod_mm = [-190, 600, 270]\n";
+
+TEST(BeamAxleStudy, SteersByADragLinkAndATrackRod) {
+  const std::string text = rigid_head + lower + upper + panhard + knuckles + axle_sweep +
+                           "[sweep.pitman]\nvalues_deg = [-6, 0, 6]\n" + axle_vehicle + "axle = \"front\"\n";
+  const study::Result result = run_text(text);
+  ASSERT_EQ(result.status, Status::done);
+  // At the reference the wheels point ahead; a rise of the axle pulls the drag link and steers.
+  const Table& sweep = result.tables[0];
+  EXPECT_NEAR(cell(sweep, "left_steer_rad", 4), 0, 1e-14);
+  EXPECT_GT(std::abs(cell(sweep, "left_steer_rad", 3)), 1e-3);
+  const Table& steer = table(result, "steer");
+  EXPECT_NEAR(cell(steer, "toe_out_on_turn_rad", 1), 0, 1e-14);
+  EXPECT_GT(cell(steer, "toe_out_on_turn_rad", 0), 1e-3);
+  EXPECT_GT(cell(steer, "ackermann_axes_percent", 2), 10);
+  EXPECT_LT(cell(steer, "left_steer_rad", 0) * cell(steer, "left_steer_rad", 2), 0);
+  std::string messages;
+  const auto prepared = test::prepare(text, messages);
+  ASSERT_TRUE(prepared) << messages;
+  Diagnostics problems;
+  const Value again = prepared->canonical;
+  const auto second = study::prepare(again, "canonical", ".", test::kinds(), problems);
+  ASSERT_TRUE(second) << test::lines_of(problems);
+  EXPECT_EQ(second->canonical, prepared->canonical);
+  EXPECT_THAT(problems_of(replaced(text, "[20, 550, 440]", "[10, 690, 220]")),
+              HasSubstr("mechanism.steering.drag_link_mm: the drag link points at the kingpin"));
+  EXPECT_THAT(problems_of(replaced(text, knuckles, "")), HasSubstr("the axle is not steered"));
 }
 
 TEST(BeamAxleStudy, TurnsThePinionWithTheBeam) {

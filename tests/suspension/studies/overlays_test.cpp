@@ -25,7 +25,7 @@ using test::sweep;
 using test::table;
 using ::testing::HasSubstr;
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double deg_by_rad = 180 / std::numbers::pi;
 
 std::filesystem::path folder_with(const char* name, const std::string& file) {
   const auto folder = std::filesystem::temp_directory_path() / name;
@@ -53,10 +53,10 @@ TEST(Measured, FiguresOfATableLieOnTheCurves) {
   const Table& compared = table(result, "measured-1");
   ASSERT_EQ(compared.rows(), 6U);
   EXPECT_EQ(compared.find("travel_m")->values[3], 0.015);
-  EXPECT_NEAR(compared.find("camber_measured_rad")->values[2] * degrees, 0.463096, 1e-9);
+  EXPECT_NEAR(compared.find("camber_measured_rad")->values[2] * deg_by_rad, 0.463096, 1e-9);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(compared.find("toe_difference_rad")->values[i] * degrees, 0, 5.1e-7);
-    EXPECT_NEAR(compared.find("camber_difference_rad")->values[i] * degrees, 0, 5.1e-7);
+    EXPECT_NEAR(compared.find("toe_difference_rad")->values[i] * deg_by_rad, 0, 5.1e-7);
+    EXPECT_NEAR(compared.find("camber_difference_rad")->values[i] * deg_by_rad, 0, 5.1e-7);
     EXPECT_NEAR(compared.find("wheel_force_difference_N")->values[i], 0, 5.1e-7);
   }
   const Table& beside = table(result, "beside_toe");
@@ -76,7 +76,7 @@ TEST(Measured, FiguresOfATableLieOnTheCurves) {
       "[[measured]]\nname = \"shifted\"\ntravels_mm = [29, 14]\ntravel_offset_mm = 1\n[[measured.column]]\n"
       "quantity = \"toe_deg\"\nvalues = [0.950323, 0.981149]\noffset = -1\n");
   for (const double difference : table(inlined, "measured-1").find("toe_difference_rad")->values)
-    EXPECT_NEAR(difference * degrees, 0, 5.1e-7);
+    EXPECT_NEAR(difference * deg_by_rad, 0, 5.1e-7);
   std::string messages;
   const auto prepared = test::prepare(pushrod_study + measured, messages, folder);
   ASSERT_TRUE(prepared);

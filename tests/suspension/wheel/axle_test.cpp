@@ -147,10 +147,10 @@ TEST(Axle, Contract) {
   EXPECT_THAT(test::message([] { turning_circle(0, 2.5, 1.3, 0.05); }),
               ::testing::StartsWith(
                   "turning_circle: wheelbase 2.5 m, distance of the axes 1.3 m, outer angle 0 rad"));
-  EXPECT_THAT(test::message([] { anti_features({}, AxlePlace::front, {}); }),
+  EXPECT_THAT(test::message([] { anti_features(WheelParameters{}, AxlePlace::front, {}); }),
               ::testing::StartsWith("anti_features: wheelbase 0 m, height of the mass centre 0 m"));
   EXPECT_THAT(test::message([] {
-                anti_features({}, AxlePlace::front, {2.7, 0.5, 1.5});
+                anti_features(WheelParameters{}, AxlePlace::front, {2.7, 0.5, 1.5});
               }),
               ::testing::StartsWith("anti_features: shares 1.5 and 1"));
   EXPECT_THAT(

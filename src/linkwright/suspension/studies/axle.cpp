@@ -357,6 +357,32 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
   if (planes)
     sweep.add("arm_" + brake + "_outboard_percent", brake_label + ", outboard brake, by arm planes (%)",
               std::move(columns[3]));
+  if (vehicle.other_axle) {
+    std::array<std::vector<double>, 3> axes;
+    for (const WheelParameters& w : wheels) {
+      VehicleAxes a{.roll_axis_inclination = WheelParameters::missing};
+      if (w.status == Status::done)
+        a = axes_with({w.roll_centre_height, front ? w.anti_pitch_tangent : -w.anti_pitch_tangent},
+                      vehicle.axle, *vehicle.other_axle, vehicle.layout.wheelbase);
+      axes[0].push_back(a.roll_axis_inclination);
+      axes[1].push_back(a.pitch_centre_behind);
+      axes[2].push_back(a.pitch_centre_height);
+    }
+    if (stated < wheels.size() && std::isfinite(axes[0][stated])) {
+      fact("inclination of the vehicle's roll axis, rising forward" + position,
+           degrees_of(axes[0][stated]).fixed(3));
+      if (std::isfinite(axes[1][stated]))
+        fact("pitch centre in braking" + position,
+             say("{} behind the front axle, {} above the road", millimetres(axes[1][stated]),
+                 millimetres(axes[2][stated])));
+    }
+    add_other_axle_facts(fact, *vehicle.other_axle, vehicle.axle, vehicle.layout);
+    sweep.add("vehicle_roll_axis_inclination_rad",
+              "inclination of the vehicle's roll axis, rising forward (rad)", std::move(axes[0]));
+    sweep.add("pitch_centre_behind_m", "pitch centre in braking, behind the front axle (m)",
+              std::move(axes[1]));
+    sweep.add("pitch_centre_height_m", "pitch centre in braking, above the road (m)", std::move(axes[2]));
+  }
   study::AddPlot plot{result, {.table = sweep.name, .x = "travel_m"}};
   if (sweep.find("rack_m")) {
     const auto& racks = sweep.find("rack_m")->values;

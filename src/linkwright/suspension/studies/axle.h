@@ -9,6 +9,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/studies/corner.h"
+#include "linkwright/suspension/studies/other_axle.h"
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/axle.h"
 
@@ -36,6 +37,7 @@ struct VehicleForm {
   AxlePlace axle = AxlePlace::front;
   VehicleLayout layout;
   std::optional<double> front_overhang, width;  ///< of the body, m
+  std::optional<OtherAxleForm> other_axle;
 };
 template <class Visitor>
 void fields(Visitor&& visit, VehicleForm& v) {
@@ -45,6 +47,8 @@ void fields(Visitor&& visit, VehicleForm& v) {
         v.front_overhang);
   visit(field::length("width", "of the body, for the turning circle between walls").between(0.01, 1e3),
         v.width);
+  visit(field::entry("other_axle", "the other axle of the vehicle: roll axis, pitch centre, anti features"),
+        v.other_axle);
 }
 
 /// `[axle.grid]`.

@@ -10,6 +10,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/dependent/beam_parameters.h"
+#include "linkwright/suspension/dependent/beam_steering.h"
 #include "linkwright/suspension/studies/axle.h"
 #include "linkwright/suspension/studies/values.h"
 
@@ -146,6 +147,25 @@ void fields(Visitor&& visit, TwistBeamForm& t) {
         t.shear_centre);
 }
 
+/// `[mechanism.steering]`.
+struct BeamSteeringForm {
+  std::vector<PointArray> kingpin, drag_link, pitman_axis;
+  PointArray track_rod{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, BeamSteeringForm& s) {
+  visit(
+      axle_point("kingpin", "two points of the left kingpin, the lower one first; the right one mirrors them")
+          .required(),
+      s.kingpin);
+  visit(axle_point("drag_link", "its joint on the Pitman arm, its joint on the left knuckle").required(),
+        s.drag_link);
+  visit(axle_point("pitman_axis", "two points on the axis of the Pitman arm's shaft").required(),
+        s.pitman_axis);
+  visit(axle_point("track_rod", "its joint on the left knuckle; that on the right one mirrors it").required(),
+        s.track_rod);
+}
+
 /// `[mechanism]`.
 struct BeamAxleForm {
   AxleWheelForm wheel;
@@ -157,6 +177,7 @@ struct BeamAxleForm {
   std::vector<AxleBallForm> ball_joints;
   std::optional<TwistBeamForm> twist_beam;
   std::vector<AxleShaftForm> shafts;
+  std::optional<BeamSteeringForm> steering;
   double pinion_angle = 0;
 };
 template <class Visitor>
@@ -172,6 +193,8 @@ void fields(Visitor&& visit, BeamAxleForm& a) {
   visit(field::entry("twist_beam", "trailing arms on a cross member that twists, instead of all links"),
         a.twist_beam);
   visit(field::entry("shaft", "propeller shaft, half-shafts of a de Dion axle: angles and plunge"), a.shafts);
+  visit(field::entry("steering", "knuckles on kingpins, drag link and track rod of a steered axle"),
+        a.steering);
   visit(field::angle("pinion_angle", "of the pinion above the horizontal at the reference, > 0: nose up")
             .between(-1, 1),
         a.pinion_angle);
@@ -182,29 +205,17 @@ struct BeamAxleSweep {
   std::optional<LengthValues> heave;
   std::optional<AngleValues> roll;
   std::optional<LengthValues> single;
+  std::optional<AngleValues> pitman;
 };
 template <class Visitor>
 void fields(Visitor&& visit, BeamAxleSweep& s) {
   visit(field::entry("heave", "changes of the mean height of the contacts").required(), s.heave);
   visit(field::entry("roll", "angles by which the body leans to the left; default: upright"), s.roll);
   visit(field::entry("single", "travels of the left wheel centre alone"), s.single);
-}
-
-/// `[vehicle.other_axle]`.
-struct OtherAxleForm {
-  double roll_centre_height = 0, support_angle = 0;
-};
-template <class Visitor>
-void fields(Visitor&& visit, OtherAxleForm& o) {
-  visit(field::length("roll_centre_height", "above the road").between(-10, 10).required(),
-        o.roll_centre_height);
-  visit(field::angle(
-            "support_angle",
-            "of the line from its contact points to its instant centre in side view above the ground, > 0: "
-            "it rises towards the middle of the vehicle")
-            .between(-1.5, 1.5)
-            .required(),
-        o.support_angle);
+  visit(field::entry("pitman",
+                     "angles of the Pitman arm at the reference, right-handed about its axis from the first "
+                     "point to the second"),
+        s.pitman);
 }
 
 /// `[vehicle]`.
@@ -239,6 +250,8 @@ struct BeamAxleStudy {
   double pinion_angle = 0;            ///< rad
   std::vector<double> heaves, rolls;  ///< m, rad, ascending
   std::vector<double> singles;        ///< m, ascending; empty = no table
+  std::optional<BeamSteering> steering;
+  std::vector<double> pitmans;  ///< rad, ascending; empty = no table
   std::optional<BeamAxleVehicle> vehicle;
   bool drawn = true;  ///< true if a scene is wanted
 };

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <optional>
@@ -62,6 +63,7 @@ class BeamAxleReader {
       out_.axle.ball_joints.push_back({b.name, vector_of(b.point)});
     });
     twist_beam();
+    steering();
     each("shaft", form.shafts,
          [&](const AxleShaftForm& s, study::ObjectReader& t, std::size_t) { shaft(s, t); });
     if (mechanism_.document().has_errors()) return false;
@@ -219,6 +221,37 @@ class BeamAxleReader {
     out_.axle.twist = AxleTwist{t.name, {pivot, math::mirrored(pivot)}, vector_of(t.shear_centre)};
   }
 
+  void steering() {
+    if (!form.steering) return;
+    auto table = mechanism_.table("steering");
+    if (!table) return;
+    const BeamSteeringForm& s = *form.steering;
+    bool whole = true;
+    for (const auto& [key, points] : {std::pair{"kingpin", &s.kingpin}, std::pair{"drag_link", &s.drag_link},
+                                      std::pair{"pitman_axis", &s.pitman_axis}}) {
+      for (const PointArray& p : *points) near(*table, key, p);
+      if (points->size() == 2) continue;
+      table->error(key, points_needed(points->size()), "two points: [[x, y, z], [x, y, z]]");
+      whole = false;
+    }
+    near(*table, "track_rod", s.track_rod);
+    if (form.twist_beam) table->error("kingpin", "a twist beam is not steered", "remove it, or twist_beam");
+    if (!whole) return;
+    const Vec3 rod = vector_of(s.track_rod);
+    const auto two = [](const std::vector<PointArray>& p) {
+      return std::array<Vec3, 2>{vector_of(p[0]), vector_of(p[1])};
+    };
+    out_.steering = BeamSteering{.kingpin = two(s.kingpin),
+                                 .pitman_axis = two(s.pitman_axis),
+                                 .drag_body = vector_of(s.drag_link[0]),
+                                 .drag_knuckle = vector_of(s.drag_link[1]),
+                                 .track_rod = {rod, math::mirrored(rod)}};
+    if (s.kingpin[0][1] < 0 || s.kingpin[1][1] < 0 || s.track_rod[1] < 0)
+      table->error("kingpin", "is on the right of the vehicle", "y points to the left: write y > 0");
+    else if (const std::string wrong = problem(*out_.steering); !wrong.empty())
+      table->error("drag_link", wrong, "check the points of the steering");
+  }
+
   void shaft(const AxleShaftForm& s, study::ObjectReader& table) {
     near(table, "body", s.body);
     near(table, "beam", s.beam);
@@ -287,6 +320,11 @@ std::optional<BeamAxleStudy> read_beam_axle_study(study::ObjectReader& document,
     if (auto roll = table->table("roll"); roll && sweep.roll) rolls = values_of(*roll, *sweep.roll, "deg");
     if (auto single = table->table("single"); single && sweep.single)
       singles = values_of(*single, *sweep.single, "mm");
+    if (auto pitman = table->table("pitman"); pitman && sweep.pitman) {
+      if (!s.steering && form)
+        pitman->error("", "the axle is not steered", "add [mechanism.steering], or remove it");
+      if (const auto values = values_of(*pitman, *sweep.pitman, "deg")) s.pitmans = *values;
+    }
     if (heaves && rolls) {
       const std::size_t rows = heaves->size() * rolls->size();
       const double bytes = sizeof(BeamAxleRow) + study::table_bytes(1, 50);
@@ -300,12 +338,17 @@ std::optional<BeamAxleStudy> read_beam_axle_study(study::ObjectReader& document,
     }
   }
   document(field::entry("vehicle"), s.vehicle);
+  if (s.vehicle && s.vehicle->other_axle)
+    if (auto table = document.table("vehicle"))
+      complete_other_axle(*table, common, s.vehicle->axle, *s.vehicle->other_axle);
   if (!form || !heaves || !rolls || !singles || document.document().has_errors()) return std::nullopt;
   s.heaves = *heaves;
   s.rolls = *rolls;
   s.singles = *singles;
   canonical["mechanism"] = study::write_fields(written_form(*form, s));
-  BeamAxleSweep whole{listed<LengthValues>(s.heaves), listed<AngleValues>(s.rolls), std::nullopt};
+  BeamAxleSweep whole{listed<LengthValues>(s.heaves), listed<AngleValues>(s.rolls), std::nullopt,
+                      std::nullopt};
+  if (!s.pitmans.empty()) whole.pitman = listed<AngleValues>(s.pitmans);
   if (!s.singles.empty()) whole.single = listed<LengthValues>(s.singles);
   canonical["sweep"] = study::write_fields(whole);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);

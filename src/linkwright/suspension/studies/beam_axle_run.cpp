@@ -103,10 +103,8 @@ std::optional<VehicleAxes> axes_of_vehicle(const BeamAxleStudy& s, const P& p) {
   const bool front = s.vehicle->axle == AxlePlace::front;
   const double tangent =
       s.vehicle->brakes == AxlePart::beam ? p.anti_pitch_tangent : p.anti_pitch_tangent_free;
-  const AxleCentre here{p.roll_centre_height, front ? tangent : -tangent},
-      other{s.vehicle->other_axle->roll_centre_height, std::tan(s.vehicle->other_axle->support_angle)};
-  return front ? vehicle_axes(here, other, s.vehicle->layout.wheelbase)
-               : vehicle_axes(other, here, s.vehicle->layout.wheelbase);
+  return axes_with({p.roll_centre_height, front ? tangent : -tangent}, s.vehicle->axle,
+                   *s.vehicle->other_axle, s.vehicle->layout.wheelbase);
 }
 
 bool is_reached(const BeamAxleRow& row) { return row.position.status == Status::done; }
@@ -118,6 +116,77 @@ BeamAxleRow row_of(const BeamAxlePlan& plan, BeamPosition position) {
   else
     out.parameters.status = out.position.status;
   return out;
+}
+
+BeamSteer lost_steer() {
+  BeamSteer out{.status = Status::no_assembly};
+  out.steer = {nan, nan};
+  out.angles[0] = out.angles[1] = {nan, nan, nan};
+  return out;
+}
+
+/// Adds what drag link and track rod make of the wheels.
+void add_steer_columns(Table& table, const std::vector<BeamSteer>& steers) {
+  const auto add = [&](const char* key, const char* label, auto&& value) {
+    std::vector<double> values;
+    for (const BeamSteer& b : steers) values.push_back(b.status == Status::done ? value(b) : nan);
+    table.add(key, label, std::move(values));
+  };
+  add("left_steer_rad", "left wheel by the drag link, to the left (rad)",
+      [](const BeamSteer& b) { return b.steer[0]; });
+  add("right_steer_rad", "right wheel by drag link and track rod, to the left (rad)",
+      [](const BeamSteer& b) { return b.steer[1]; });
+  add("left_steered_camber_rad", "left camber as steered (rad)",
+      [](const BeamSteer& b) { return b.angles[0].camber; });
+  add("right_steered_camber_rad", "right camber as steered (rad)",
+      [](const BeamSteer& b) { return b.angles[1].camber; });
+}
+
+/// The table `steer`: wheels over the angle of the Pitman arm, the axle at its reference.
+void add_steering(study::Result& result, const BeamAxleStudy& s, const BeamAxlePlan& plan) {
+  const BeamPosition reference = reference_position(plan);
+  if (reference.status != Status::done) return;
+  std::vector<BeamSteer> steers;
+  for (const double pitman : s.pitmans)
+    steers.push_back(steer_beam(plan, *s.steering, reference.place, pitman));
+  const BeamSteer straight = steer_beam(plan, *s.steering, reference.place, 0);
+  Table table{.name = "steer"};
+  table.add("pitman_angle_rad", "angle of the Pitman arm (rad)", s.pitmans);
+  add_steer_columns(table, steers);
+  std::vector<double> toe_out, ackermann_share;
+  // The kingpins meet the road in the distance that the ideal angles refer to.
+  const Vec3 low = s.steering->kingpin[0], axis = unit(s.steering->kingpin[1] - low);
+  const double road = contact_point(plan, reference.place, Side::left).z,
+               axes = 2 * (low + ((road - low.z) / axis.z) * axis).y;
+  for (const BeamSteer& b : steers) {
+    const double left = b.steer[0] - straight.steer[0], right = b.steer[1] - straight.steer[1],
+                 inner = std::max(std::abs(left), std::abs(right)),
+                 outer = std::min(std::abs(left), std::abs(right));
+    const bool to_left = left + right > 0;
+    const double in = std::abs(to_left ? left : right), out = std::abs(to_left ? right : left);
+    toe_out.push_back(b.status == Status::done ? in - out : nan);
+    const bool turned = b.status == Status::done && outer > 1e-6 && s.vehicle && axes > 0 && inner > 0;
+    ackermann_share.push_back(turned ? ackermann(in, out, s.vehicle->layout.wheelbase, axes).percent : nan);
+  }
+  table.add("toe_out_on_turn_rad", "inner less outer steer angle, from straight ahead (rad)",
+            std::move(toe_out));
+  if (s.vehicle)
+    table.add("ackermann_axes_percent", "Ackermann by the kingpins at the ground (%)",
+              std::move(ackermann_share));
+  if (std::any_of(steers.begin(), steers.end(),
+                  [](const BeamSteer& b) { return b.status != Status::done; })) {
+    for (const BeamSteer& b : steers) table.status.emplace_back(to_string(b.status));
+    const auto lost = std::find_if(steers.begin(), steers.end(),
+                                   [](const BeamSteer& b) { return b.status != Status::done; });
+    study::AddWarning{result.diagnostics}(
+        say("Pitman arm at {}: {}", degrees_of(s.pitmans[static_cast<std::size_t>(lost - steers.begin())]),
+            lost->reason),
+        "take smaller angles");
+  }
+  result.tables.push_back(std::move(table));
+  const study::AddPlot plot{result, {.table = "steer", .x = "pitman_angle_rad"}};
+  plot("steer-angles", "Steer angles over the Pitman arm", {"left_steer_rad", "right_steer_rad"});
+  plot("ackermann", "Ackermann over the Pitman arm", {"ackermann_axes_percent"});
 }
 
 /// Adds the columns of the parameters to a table that has those of the inputs.
@@ -151,6 +220,13 @@ void add_beam_columns(Table& table, const BeamAxleStudy& s, const BeamAxlePlan* 
         [&](const BeamAxleRow& r) { return axes(r).pitch_centre_behind; });
     add("pitch_centre_height_m", "pitch centre in braking, above the road (m)",
         [&](const BeamAxleRow& r) { return axes(r).pitch_centre_height; });
+  }
+  if (s.steering) {
+    std::vector<BeamSteer> steers;
+    for (const BeamAxleRow& r : rows)
+      steers.push_back(plan && is_reached(r) ? steer_beam(*plan, *s.steering, r.position.place, 0)
+                                             : lost_steer());
+    add_steer_columns(table, steers);
   }
   for (const NamedShaft& n : s.shafts) {
     const std::string key = plain_name(n.name);
@@ -194,6 +270,7 @@ void add_axle_plots(study::Result& result, const BeamAxleStudy& s) {
     plot("axle-steer", "Axle steer over heave", {"steer_rad"});
     plot("recession", "Recession of the wheel centres over heave", {"left_recession_m", "right_recession_m"});
     plot("pinion", "Pinion angle over heave", {"pinion_angle_rad"});
+    plot("drag-link-steer", "Steer by the drag link over heave", {"left_steer_rad", "right_steer_rad"});
     if (s.vehicle) {
       const AntiNames names = anti_names(*s.vehicle);
       plot("anti-features", fmt::format("{} and {} over heave", names.brake_words, names.drive_words),
@@ -210,6 +287,7 @@ void add_axle_plots(study::Result& result, const BeamAxleStudy& s) {
     if (many_heaves) plot.like.group = "heave_m";
     plot("roll-steer", "Axle steer over roll", {"steer_rad"});
     plot("roll-centre-roll", "Roll-centre height over roll", {"roll_centre_height_m"});
+    plot("drag-link-roll-steer", "Steer by the drag link over roll", {"left_steer_rad", "right_steer_rad"});
     plot("roll-twist", "Twist of the beam over roll", {"twist_rad"});
     plot("roll-shift", "Lateral shift of the axle over roll", {"lateral_shift_m"});
   }
@@ -252,6 +330,7 @@ void add_axle_facts(study::Result& result, const BeamAxleStudy& s, const BeamAxl
       fact("pitch centre in braking" + here,
            say("{} behind the front axle, {} above the road", length(axes->pitch_centre_behind),
                length(axes->pitch_centre_height)));
+    add_other_axle_facts(fact, *s.vehicle->other_axle, s.vehicle->axle, s.vehicle->layout);
   }
   for (const NamedShaft& n : s.shafts) {
     const BeamShaftState state = shaft_state(plan, row.position.place, n.shaft);
@@ -398,6 +477,7 @@ study::Result run_beam_axle_study(const BeamAxleStudy& asked, RunContext& contex
   const std::size_t heave = next_to_zero(s.heaves), roll = next_to_zero(s.rolls);
   add_axle_facts(result, s, plan, rows[roll * s.heaves.size() + heave], s.heaves[heave], s.rolls[roll]);
   if (!s.singles.empty()) add_single(result, s, plan, context);
+  if (!s.pitmans.empty() && s.steering) add_steering(result, s, plan);
   if (s.drawn) result.scenes.push_back(beam_axle_scene(s, plan, rows));
 
   const study::AddWarning warn{result.diagnostics};

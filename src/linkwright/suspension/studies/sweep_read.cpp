@@ -75,7 +75,7 @@ std::vector<OtherDesign> read_other_designs(study::ObjectReader& document, const
 
 /// True if the tables of the study, and the data they are made from, have room in memory.
 bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
-  constexpr double of_anti_features = 3;
+  constexpr double of_anti_features = 7;
   const double columns = 3 + static_cast<double>(columns_of(s).size()) +
                          (has_springs(s.description) ? spring_columns : 0) +
                          (s.vehicle ? of_anti_features : 0) +
@@ -202,6 +202,9 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   s.other_wheel = read_other_wheel(document, common, description);
   const bool ride = document(field::entry("ride"), s.ride);
   document(field::entry("vehicle"), s.vehicle);
+  if (s.vehicle && s.vehicle->other_axle)
+    if (auto table = document.table("vehicle"))
+      complete_other_axle(*table, common, s.vehicle->axle, *s.vehicle->other_axle);
   document(field::entry("axle"), s.axle);
   document(field::entry("compliance"), s.compliance);
   document(field::entry("packaging"), s.packaging);
