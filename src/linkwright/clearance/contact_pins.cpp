@@ -71,9 +71,7 @@ void ContactPins::press(std::span<const PinForce> forces) {
 
 math::Vec2 ContactPins::acceleration(const planar::LinkageMotion& motion, std::size_t pin) const {
   const auto of = [&](const planar::BodyPoint& p) {
-    return planar::point_motion(open_.plan, motion, p.body,
-                                open_.linkage.bodies[at(p.body)].points[at(p.point)].at)
-        .acceleration;
+    return planar::point_motion(open_.linkage, open_.plan, motion, p).acceleration;
   };
   return of(journal(pin)) - of(bush(pin));
 }

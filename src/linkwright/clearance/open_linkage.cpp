@@ -128,7 +128,7 @@ double coordinate(const Linkage& l, const LinkageJoint& j) {
   const math::Pose first = pose(j.first.body), second = pose(j.second.body);
   if (j.type == JointType::revolute) return math::wrap_angle(second.angle - first.angle);
   const auto point = [&](const math::Pose& p, const planar::BodyPoint& b) {
-    return math::transform(p, l.bodies[at(b.body)].points[at(b.point)].at);
+    return math::transform(p, place_of(l, b));
   };
   const std::complex<double> way = point(second, j.second) - point(first, j.first);
   return (way * std::polar(1.0, -first.angle - j.slide_first)).real();
@@ -203,8 +203,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
 
 PinGap pin_gap(const OpenLinkage& open, const LinkageMotion& motion, std::size_t pin) {
   const auto point = [&](const planar::BodyPoint& p) {
-    return planar::point_motion(open.plan, motion, p.body,
-                                open.linkage.bodies[at(p.body)].points[at(p.point)].at);
+    return planar::point_motion(open.linkage, open.plan, motion, p);
   };
   const planar::PointMotion a = point(open.pins[pin].first), b = point(open.pins[pin].second);
   return {math::number(b.position - a.position), math::number(b.velocity - a.velocity)};

@@ -154,8 +154,7 @@ class Solver {
                            std::size_t sample, std::span<const double> near) const {
     std::vector<double> out;
     for (const planar::BodyPoint& p : outputs_.points) {
-      const auto place =
-          planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
+      const auto place = planar::point_motion(l, plan, motion, p).position;
       out.push_back(place.x);
       out.push_back(place.y);
     }

@@ -25,11 +25,6 @@ double angle_in(const planar::LinkagePlan& plan, const planar::LinkageMotion& mo
 
 }  // namespace
 
-math::Vec2 place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
-                    const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
-  return planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
-}
-
 ClearanceRows::ClearanceRows(const ClearanceStudy& study, ClearanceRecording& out,
                              std::function<bool(RecordedRow&&)> keep)
     : s_(study), out_(out), keep_(std::move(keep)) {
@@ -148,7 +143,8 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
   const math::Vec2 n = norm(e) > 0 ? (1 / norm(e)) * e : math::Vec2{1, 0};
   const math::Vec2 on_pin = -state.normal * n - state.friction * perpendicular(n);
   const math::Vec2 where =
-      place_of(open_->linkage, open_->plan, *c.motion, pin_first ? pin.first : pin.second) +
+      planar::point_motion(open_->linkage, open_->plan, *c.motion, pin_first ? pin.first : pin.second)
+          .position +
       (s_.contacts[k].bush_radius - s_.contacts[k].clearance) * n;
   const math::Vec2 on_second = pin_first ? -on_pin : on_pin;
   const std::size_t first_force = s_.linkage.forces.size();

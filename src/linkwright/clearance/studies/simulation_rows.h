@@ -55,8 +55,4 @@ class ClearanceRows {
   planar::LinkageForces forces_;
 };
 
-/// The position of a point of a body in a position of the ideal linkage (m).
-math::Vec2 place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
-                    const planar::LinkageMotion& motion, const planar::BodyPoint& p);
-
 }  // namespace linkwright::clearance

@@ -367,8 +367,9 @@ class Recorder {
     for (const planar::LinkageColumn& c : out_.columns)
       row.values.push_back(status == Status::done ? c.value(instant) : nan);
     for (const planar::BodyPoint& p : s_.traces)  // places of the traced points, which are no columns
-      places_.push_back(status == Status::done ? number(place_of(s_.linkage, s_.plan, motion, p))
-                                               : std::complex<double>(nan, nan));
+      places_.push_back(status == Status::done
+                            ? number(planar::point_motion(s_.linkage, s_.plan, motion, p).position)
+                            : std::complex<double>(nan, nan));
     out_.ideal.push_back(std::move(row));
   }
   void without_clearance() {
@@ -412,7 +413,8 @@ class Recorder {
       planar::solve_position(s_.plan, inputs_at(curves, s_.from + (to - s_.from) * i / count), motion);
       if (motion.status != Status::done) continue;
       for (std::size_t k = 0; k < s_.traces.size(); ++k)
-        out_.ideal_paths[k].push_back(number(place_of(s_.linkage, s_.plan, motion, s_.traces[k])));
+        out_.ideal_paths[k].push_back(
+            number(planar::point_motion(s_.linkage, s_.plan, motion, s_.traces[k]).position));
     }
   }
 

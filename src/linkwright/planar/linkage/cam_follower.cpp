@@ -90,7 +90,7 @@ math::Vec2 CamFollower::in_base(const math::Vec2& vector) const {
 double CamFollower::distance(double coordinate) {
   move({coordinate, 0, 0, 0});
   const auto place = [this](const BodyPoint& p) {
-    return point_motion(plan_, *motion_, p.body, linkage_.bodies[at(p.body)].points[at(p.point)].at).position;
+    return point_motion(linkage_, plan_, *motion_, p).position;
   };
   const math::Vec2 apart = place(cam_.contact) - place(bodies_.base);
   if (cam_.face != FollowerFace::flat) return norm(apart);
@@ -123,9 +123,7 @@ std::optional<double> CamFollower::on_base_circle(double base_radius) {
 CamState CamFollower::contour(double offset, const math::Motion& m, double angle) {
   move({offset + m.value, m.rate, m.acceleration, 0});
   const double sense = cam_.sense();
-  const auto place = [this](const BodyPoint& p) {
-    return point_motion(plan_, *motion_, p.body, linkage_.bodies[at(p.body)].points[at(p.point)].at);
-  };
+  const auto place = [this](const BodyPoint& p) { return point_motion(linkage_, plan_, *motion_, p); };
   const auto vector = [this](const math::Vec2& v) {
     const math::Vec2 turned = in_base(v);
     return std::complex<double>(turned.x, turned.y);

@@ -118,9 +118,7 @@ SlideMotion slide_motion(const Linkage& l, const LinkagePlan& plan, const Linkag
     const JointMotion m = joint_motion(l, plan, *i.motion, static_cast<int>(j));
     return {m.value, m.rate, m.acceleration};
   }
-  const auto place = [&](const BodyPoint& p) {
-    return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
-  };
+  const auto place = [&](const BodyPoint& p) { return point_motion(l, plan, *i.motion, p); };
   const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
   const math::Vec2 along = rotate(first.direction, math::unit(joint.slide_first));
   const PointMotion a = place(joint.first), b = place(joint.second);

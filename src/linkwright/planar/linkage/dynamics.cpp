@@ -20,9 +20,7 @@ struct Springy {
 };
 Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                  const LinearSpring& s) {
-  const auto point = [&](const BodyPoint& p) {
-    return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
-  };
+  const auto point = [&](const BodyPoint& p) { return point_motion(l, plan, motion, p); };
   const PointMotion a = point(s.first), b = point(s.second);
   const math::Vec2 way = b.position - a.position;
   const double length = norm(way);

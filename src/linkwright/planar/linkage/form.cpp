@@ -57,9 +57,9 @@ void complete_mass(Linkage& l, std::size_t b, const BodyForm& form) {
 double free_length_of(const Linkage& l, const SpringForm& f, FormNames& names) {
   const auto place_at_start = [&](const BodyPoint& p) -> std::optional<std::complex<double>> {
     const std::optional<math::Pose>& start = l.bodies[static_cast<std::size_t>(p.body)].start;
-    if (p.body == 0) return pin_place(l, p);
+    if (p.body == 0) return place_of(l, p);
     if (!start) return std::nullopt;
-    return std::complex<double>(start->x, start->y) + std::polar(1.0, start->angle) * pin_place(l, p);
+    return std::complex<double>(start->x, start->y) + std::polar(1.0, start->angle) * place_of(l, p);
   };
   const auto first = place_at_start(l.springs.back().first), second = place_at_start(l.springs.back().second);
   if (f.free_length != 0) {

@@ -44,7 +44,7 @@ struct PinAxis {
   }
 };
 bool same_pin_place(const Linkage& l, const BodyPoint& p, const BodyPoint& q) {
-  return p.body == q.body && std::abs(pin_place(l, p) - pin_place(l, q)) <= 1e-9 * size_of(l);
+  return p.body == q.body && std::abs(place_of(l, p) - place_of(l, q)) <= 1e-9 * size_of(l);
 }
 std::vector<PinAxis> axes_of(const Linkage& l) {
   std::vector<PinAxis> axes;
@@ -86,7 +86,7 @@ struct Wheels {
         const BodyPoint *first = a.on(body), *second = b.on(body);
         if (&a != &b && first && second && turns_on(gear.first, first_named(), a) &&
             turns_on(gear.second, second_named(), b))
-          return std::abs(pin_place(l, *first) - pin_place(l, *second));
+          return std::abs(place_of(l, *first) - place_of(l, *second));
       }
     return std::nullopt;
   }
@@ -167,7 +167,7 @@ std::vector<std::complex<double>> centres_on(const Linkage& l, const std::vector
     for (const PinAxis& axis : axes) {
       const BodyPoint *own = axis.on(wheel.centre.body), *there = axis.on(body);
       if (body == wheel.centre.body || !own || !there || !same_pin_place(l, *own, wheel.centre)) continue;
-      out.push_back(pin_place(l, *there));
+      out.push_back(place_of(l, *there));
       break;
     }
   if (out.size() != belt.wheels.size()) out.clear();
@@ -266,7 +266,7 @@ void measure_rack(const Linkage& l, const JointForm& f, bool drawn, LinkageJoint
     return;
   }
   const std::complex<double> apart =
-      (pin_place(l, rack.first) - pin_place(l, rack.second)) * std::polar(1.0, -rack.slide_second);
+      (place_of(l, rack.first) - place_of(l, rack.second)) * std::polar(1.0, -rack.slide_second);
   rack.radius = apart.imag();
   if (f.radius && std::abs(std::abs(*f.radius) - std::abs(apart.imag())) > 1e-6 * std::abs(*f.radius))
     names.problem(
@@ -308,7 +308,7 @@ void complete_belt(const Linkage& l, const BeltForm& f, bool drawn, Belt& belt, 
                            fmt::format("'{}' does not carry all wheels of belt '{}'", *f.carrier, f.name),
                            "join each wheel to it by a pin at its centre");
   } else if (drawn) {
-    for (const BeltWheel& wheel : belt.wheels) centres.push_back(pin_place(l, wheel.centre));
+    for (const BeltWheel& wheel : belt.wheels) centres.push_back(place_of(l, wheel.centre));
   }
   if (belt.tension && belt.carrier < 0)
     names.problem("tension_N", fmt::format("the tension of '{}' follows from its loads", f.name),

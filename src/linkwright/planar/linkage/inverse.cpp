@@ -292,9 +292,7 @@ double end_by_determinant(PathFollower follower, double end, double span) {
 // of a body with a pin there, as a piston.
 std::optional<std::string> bodies_in_line(const Linkage& l, const LinkagePlan& plan,
                                           const LinkageMotion& motion, const FollowedPoint& point) {
-  const auto place = [&](const BodyPoint& p) {
-    return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
-  };
+  const auto place = [&](const BodyPoint& p) { return point_motion(l, plan, motion, p).position; };
   const auto end_on = [](const LinkageJoint& j, int body) -> const BodyPoint* {
     if (j.type != JointType::revolute) return nullptr;
     return j.first.body == body ? &j.first : j.second.body == body ? &j.second : nullptr;

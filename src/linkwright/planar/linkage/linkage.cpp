@@ -454,9 +454,7 @@ class Checker {
               "move one of the points, or leave the body out");
     }
   }
-  std::complex<double> at(const BodyPoint& p) const {
-    return l_.bodies[static_cast<std::size_t>(p.body)].points[static_cast<std::size_t>(p.point)].at;
-  }
+  std::complex<double> at(const BodyPoint& p) const { return place_of(l_, p); }
   const std::string& name(int body) const { return l_.bodies[static_cast<std::size_t>(body)].name; }
 
   static constexpr std::array<std::string_view, 8> words_{"revolute", "prismatic", "pin_in_slot", "fixed",
@@ -483,20 +481,22 @@ double size_of(const Linkage& linkage) {
   for (const LinkageJoint& j : linkage.joints) {
     if (j.type == JointType::gear) continue;
     for (const BodyPoint& end : {j.first, j.second})
-      used[static_cast<std::size_t>(end.body)].push_back(
-          linkage.bodies[static_cast<std::size_t>(end.body)].points[static_cast<std::size_t>(end.point)].at);
+      used[static_cast<std::size_t>(end.body)].push_back(place_of(linkage, end));
   }
   for (const LinkageCam& c : linkage.cams)
-    used[static_cast<std::size_t>(c.contact.body)].push_back(
-        linkage.bodies[static_cast<std::size_t>(c.contact.body)]
-            .points[static_cast<std::size_t>(c.contact.point)]
-            .at);
+    used[static_cast<std::size_t>(c.contact.body)].push_back(place_of(linkage, c.contact));
   double size = 0;
   for (const LinkageCam& c : linkage.cams) size = std::max(size, c.base_radius.value_or(0) + c.roller());
   for (const auto& points : used)
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) size = std::max(size, std::abs(points[i] - points[k]));
   return size > 0 ? size : 1;
+}
+
+std::complex<double> place_of(const Linkage& linkage, const BodyPoint& point) {
+  return linkage.bodies[static_cast<std::size_t>(point.body)]
+      .points[static_cast<std::size_t>(point.point)]
+      .at;
 }
 
 std::string first_rolling_pair(const Linkage& linkage) {

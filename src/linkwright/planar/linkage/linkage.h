@@ -505,6 +505,13 @@ int body_index(const Linkage& linkage, std::string_view name);
 /// @returns index into LinkageBody::points; -1 if there is none of that name
 int point_index(const LinkageBody& body, std::string_view name);
 
+/// The place of a point in the frame of its body.
+///
+/// @param linkage the linkage
+/// @param point a point of it
+/// @returns its coordinates (m)
+std::complex<double> place_of(const Linkage& linkage, const BodyPoint& point);
+
 /// Index of a joint by its name.
 ///
 /// @param linkage the linkage

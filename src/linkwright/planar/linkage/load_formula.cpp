@@ -121,9 +121,7 @@ class QuantityReader {
 
 double value_of(const LoadQuantity& q, const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                 double time) {
-  const auto point = [&] {
-    return point_motion(plan, motion, q.first.body, l.bodies[at(q.first.body)].points[at(q.first.point)].at);
-  };
+  const auto point = [&] { return point_motion(l, plan, motion, q.first); };
   switch (q.kind) {
     case Kind::unused:
       break;

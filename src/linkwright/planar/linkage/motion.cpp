@@ -203,9 +203,13 @@ PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, i
 }
 
 PointMotion point_motion(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                         const BodyPoint& point) {
+  return point_motion(plan, motion, point.body, place_of(linkage, point));
+}
+
+PointMotion point_motion(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
                          std::string_view point) {
-  const BodyPoint found = point_named(linkage, point);
-  return point_motion(plan, motion, found.body, linkage.bodies[at(found.body)].points[at(found.point)].at);
+  return point_motion(linkage, plan, motion, point_named(linkage, point));
 }
 
 void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {

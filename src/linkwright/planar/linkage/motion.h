@@ -121,6 +121,16 @@ struct PointMotion {
 PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, int body,
                          std::complex<double> at);
 
+/// The motion of a point of the linkage.
+///
+/// @param linkage the linkage
+/// @param plan its plan
+/// @param motion its motion
+/// @param point a point of one of its bodies
+/// @returns its motion in the global frame
+PointMotion point_motion(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                         const BodyPoint& point);
+
 /// The motion of a point by its name.
 ///
 /// @param linkage the linkage

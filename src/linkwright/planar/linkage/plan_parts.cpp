@@ -17,9 +17,7 @@ struct PoseOnRoot {
   math::Vec2 origin{0, 0}, turn{1, 0};
 };
 
-math::Vec2 point_of_body(const PlanDraft& d, const BodyPoint& p) {
-  return math::vec(d.linkage.bodies[at(p.body)].points[at(p.point)].at);
-}
+math::Vec2 point_of_body(const PlanDraft& d, const BodyPoint& p) { return math::vec(place_of(d.linkage, p)); }
 
 // Bodies joined by welds become one part, in the frame of the first of them.
 void weld_bodies(PlanDraft& d) {

@@ -149,9 +149,7 @@ JointMotion joint_motion(const Linkage& linkage, const LinkagePlan& plan, const 
                                               body_state(plan, motion, rack ? j.first.body : j.second.body));
   if (j.type == JointType::revolute || j.type == JointType::gear || rack)
     return {angle_of(s.direction), s.speed, s.angular_acceleration};
-  const auto point = [&](const BodyPoint& p) {
-    return math::vec(linkage.bodies[at(p.body)].points[at(p.point)].at);
-  };
+  const auto point = [&](const BodyPoint& p) { return math::vec(place_of(linkage, p)); };
   const math::Vec2 there = point_on(s, point(j.second));
   if (j.slot) {
     const SlotPlace place = slot_of(plan, joint).track->nearest(there);
@@ -167,9 +165,7 @@ double off_pitch_line(const Linkage& linkage, const LinkagePlan& plan, const Lin
                       int joint) {
   const LinkageJoint& j = linkage.joints[at(joint)];
   LINKWRIGHT_REQUIRE(j.type == JointType::rack, "joint '{}' is not a rack", j.name);
-  const auto place = [&](const BodyPoint& p) {
-    return point_motion(plan, motion, p.body, linkage.bodies[at(p.body)].points[at(p.point)].at).position;
-  };
+  const auto place = [&](const BodyPoint& p) { return point_motion(linkage, plan, motion, p).position; };
   const math::Vec2 along =
       rotate(body_state(plan, motion, j.second.body).direction, math::unit(j.slide_second));
   return cross(along, place(j.first) - place(j.second)) - j.radius;

@@ -55,7 +55,7 @@ double strength(const LoadFactor& f, bool turns, double time, double input, cons
 
 PointMotion point_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
                      const BodyPoint& p) {
-  return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
+  return point_motion(l, plan, motion, p);
 }
 
 const PartState<double>& part_of(const LinkagePlan& plan, const LinkageMotion& motion, int body) {

@@ -46,7 +46,7 @@ std::optional<std::vector<ConstraintRow>> rows_of_joints(const Linkage& l, doubl
     const LinkageJoint& j = l.joints[at(k)];
     if (has_teeth(j.type) || j.slot) return std::nullopt;
     const PartState<double>& second = bodies[at(j.second.body)];
-    const Vec2 place = point_on(second, math::vec(l.bodies[at(j.second.body)].points[at(j.second.point)].at));
+    const Vec2 place = point_on(second, math::vec(place_of(l, j.second)));
     const Vec2 slide = rotate(bodies[at(j.first.body)].direction, math::unit(j.slide_first));
     const bool pin = j.type == JointType::revolute || j.type == JointType::fixed ||
                      std::find(as_pins.begin(), as_pins.end(), k) != as_pins.end();
@@ -116,9 +116,7 @@ std::optional<ConstraintRank> constraint_rank(const Linkage& l, double size,
 }
 
 double relaxed_gap(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, int joint) {
-  const auto place = [&](const BodyPoint& p) {
-    return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
-  };
+  const auto place = [&](const BodyPoint& p) { return point_motion(l, plan, motion, p).position; };
   return norm(place(l.joints[at(joint)].second) - place(l.joints[at(joint)].first));
 }
 

@@ -39,9 +39,7 @@ void add_stop_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMoti
   const double effort = l.stops[stop].side * stop_effort(l, plan, motion, stop);
   if (effort == 0) return;
   const LinkageJoint& j = l.joints[at(l.stops[stop].joint)];
-  const math::Vec2 there =
-      point_motion(plan, motion, j.second.body, l.bodies[at(j.second.body)].points[at(j.second.point)].at)
-          .position;
+  const math::Vec2 there = point_motion(l, plan, motion, j.second).position;
   math::Vec2 force{0, 0};
   double torque = 0;
   if (j.type == JointType::revolute)

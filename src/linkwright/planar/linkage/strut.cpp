@@ -42,9 +42,7 @@ double factor_integral(const LoadFactor& f, double argument) {
 
 Span span_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, const BodyPoint& first,
              const BodyPoint& second) {
-  const auto point = [&](const BodyPoint& p) {
-    return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
-  };
+  const auto point = [&](const BodyPoint& p) { return point_motion(l, plan, motion, p); };
   const PointMotion a = point(first), b = point(second);
   Span span{.first = a.position, .second = b.position};
   const math::Vec2 between = b.position - a.position;

@@ -144,7 +144,7 @@ class Coordinates {
 
   Side side(const BodyPoint& p, double angle) const {
     const BodyOnPart& on = plan_.bodies[at(p.body)];
-    const math::Vec2 local = math::vec(l_.bodies[at(p.body)].points[at(p.point)].at);
+    const math::Vec2 local = math::vec(place_of(l_, p));
     return {on.part, on.origin + rotate(on.turn, local), rotate(on.turn, math::unit(angle))};
   }
   // All equations of the joints; turns are measured from where they are at the start.

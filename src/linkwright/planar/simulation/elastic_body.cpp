@@ -63,9 +63,7 @@ class Builder {
         "elastic_body." + (named ? rigid_.bodies[at(b.body)].name : std::to_string(b.body));
     out_.problems.push_back({Diagnostic::Severity::error, {}, {}, key, std::move(message), std::move(hint)});
   }
-  std::complex<double> point(const BodyPoint& p) const {
-    return rigid_.bodies[at(p.body)].points[at(p.point)].at;
-  }
+  std::complex<double> point(const BodyPoint& p) const { return place_of(rigid_, p); }
 
   // ---- what is given ------------------------------------------------------------------------------------
 

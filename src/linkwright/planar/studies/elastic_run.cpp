@@ -210,7 +210,7 @@ class ElasticRecorder {
       return first ? way : -way;
     }
     const BodyPoint &t = s_.traces[at(e.index)], on = on_piece(t);
-    const std::complex<double> p = s_.linkage.bodies[at(t.body)].points[at(t.point)].at;
+    const std::complex<double> p = place_of(s_.linkage, t);
     return norm(point_motion(out_.elastic.plan, motion, on.body, p).position -
                 point_on(rigid.bodies[at(t.body)], math::vec(p)));
   }

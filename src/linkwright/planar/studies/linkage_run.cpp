@@ -370,8 +370,7 @@ class Runner {
     std::vector<double> radii;
     for (const BeltWheel& wheel : belt.wheels) {
       const PartState<double>& body = recorded_.front().bodies[at(wheel.centre.body)];
-      centres.push_back(number(point_on(
-          body, math::vec(s_.linkage.bodies[at(wheel.centre.body)].points[at(wheel.centre.point)].at))));
+      centres.push_back(number(point_on(body, math::vec(place_of(s_.linkage, wheel.centre)))));
       radii.push_back(wheel.side * wheel.radius);
     }
     const BeltRun run = belt_run(centres, radii, belt.closed);

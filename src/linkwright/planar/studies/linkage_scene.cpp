@@ -160,8 +160,7 @@ class Artist {
       } else if (j.type == JointType::prismatic && (!moves(j.first.body) || !moves(j.second.body))) {
         guide(j);
       } else if (j.type == JointType::rack) {
-        circle(j.name + " pinion", j.first.body, l_.bodies[at(j.first.body)].points[at(j.first.point)].at,
-               std::abs(j.radius));
+        circle(j.name + " pinion", j.first.body, place_of(l_, j.first), std::abs(j.radius));
         guide(j);
       }
     }
@@ -201,15 +200,14 @@ class Artist {
       for (const BeltWheel& wheel : belt.wheels)
         if (wheel.radius > 0)
           circle(fmt::format("{} on {}", belt.name, l_.bodies[at(wheel.centre.body)].name), wheel.centre.body,
-                 l_.bodies[at(wheel.centre.body)].points[at(wheel.centre.point)].at, wheel.radius);
+                 place_of(l_, wheel.centre), wheel.radius);
     std::vector<int> wheel(l_.belts.size(), 0);
     for (const PlanStrand& strand : plan_.strands) {
       const Belt& belt = l_.belts[at(strand.belt)];
       const std::size_t from = at(wheel[at(strand.belt)]++), to = (from + 1) % belt.wheels.size();
       const auto line = [&belt, from, to, this](const LinkageRecord& r) {
         const auto centre = [&](const BeltWheel& w) {
-          return point_on(r.bodies[at(w.centre.body)],
-                          math::vec(l_.bodies[at(w.centre.body)].points[at(w.centre.point)].at));
+          return point_on(r.bodies[at(w.centre.body)], math::vec(place_of(l_, w.centre)));
         };
         const BeltWheel &a = belt.wheels[from], &b = belt.wheels[to];
         return strand_line(centre(a), a.side * a.radius, centre(b), b.side * b.radius);
@@ -294,7 +292,7 @@ class Artist {
     if (is_groove) scene_.bodies.push_back({cam.name + " outer flank", std::move(outer), Style::plate});
     if (cam.programme.is_sector) inner.push_back(add_point("", pair.cam_body, number(centre)));
     scene_.bodies.push_back({cam.name + of, std::move(inner), Style::plate});
-    const std::complex<double> touch = l_.bodies[at(cam.contact.body)].points[at(cam.contact.point)].at;
+    const std::complex<double> touch = place_of(l_, cam.contact);
     if (roller > 0) circle(cam.name + of + " roller", cam.contact.body, touch, roller);
     if (!pair.is_flat) return;
     const double margin = 0.05 * (high - low) + 0.02 * plan_.size;
@@ -328,15 +326,14 @@ class Artist {
     const bool on_first =
         j.type != JointType::rack && (!moves(j.first.body) || j.type == JointType::pin_in_slot);
     const BodyPoint &base = on_first ? j.first : j.second, &runner = on_first ? j.second : j.first;
-    const std::complex<double> start = l_.bodies[at(base.body)].points[at(base.point)].at;
+    const std::complex<double> start = place_of(l_, base);
     const math::Vec2 along = math::unit(on_first ? j.slide_first : j.slide_second);
     double low = 0, high = 0;
     bool any = false;
     for (const LinkageRecord& r : records_) {
       if (r.bodies.empty()) continue;
       const PartState<double>& s = r.bodies[at(base.body)];
-      const math::Vec2 there = point_on(r.bodies[at(runner.body)],
-                                        math::vec(l_.bodies[at(runner.body)].points[at(runner.point)].at));
+      const math::Vec2 there = point_on(r.bodies[at(runner.body)], math::vec(place_of(l_, runner)));
       const double way = dot(along, rotate_inverse(s.direction, there - s.origin) - math::vec(start));
       if (std::isnan(way)) continue;
       low = any ? std::min(low, way) : way;

@@ -86,11 +86,6 @@ class FormNames {
   std::size_t index_ = 0;
 };
 
-/// Place of a point in the frame of its body, as the form gives it.
-inline std::complex<double> pin_place(const Linkage& l, const BodyPoint& p) {
-  return l.bodies[static_cast<std::size_t>(p.body)].points[static_cast<std::size_t>(p.point)].at;
-}
-
 /// The speed of the second wheel of a gear by that of the first.
 double ratio_of(const JointForm& form, FormNames& names);
 /// Finds the carrier of a gear where the form does not name it, and the pressure angle at which its teeth
