@@ -10,6 +10,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/math/gauss.h"
 
 namespace linkwright::planar {
 namespace {
@@ -60,16 +61,6 @@ std::optional<Circle> circle_through(Vec2 a, Vec2 b, Vec2 c) {
   return Circle{centre, norm(to_centre), from, turn};
 }
 
-// Gauss's rule of five points on [a, b].
-template <class F>
-double path_integral(F&& f, double a, double b) {
-  constexpr double x[] = {0, 0.53846931010568309, 0.90617984593866399};
-  constexpr double w[] = {0.56888888888888889, 0.47862867049936647, 0.23692688505618909};
-  const double middle = (a + b) / 2, half = (b - a) / 2;
-  double sum = w[0] * f(middle);
-  for (int k = 1; k < 3; ++k) sum += w[k] * (f(middle - half * x[k]) + f(middle + half * x[k]));
-  return half * sum;
-}
 constexpr int panels = 16;  // panels of a piece of a spline, for its length
 
 // Lengths at places so dense that the integral between two of them is exact to rounding.
@@ -80,7 +71,7 @@ void measure_lengths(std::span<const double> knots, Speed&& speed, std::vector<d
   for (std::size_t i = 1; i < knots.size(); ++i)
     for (int k = 1; k <= panels; ++k) {
       const double to = knots[i - 1] + (knots[i] - knots[i - 1]) * k / panels;
-      lengths.push_back(lengths.back() + path_integral(speed, places.back(), to));
+      lengths.push_back(lengths.back() + math::gauss_integral(speed, places.back(), to));
       places.push_back(to);
     }
 }
@@ -90,7 +81,7 @@ double length_of_place(double place, const std::vector<double>& places, const st
   const auto after = std::upper_bound(places.begin(), places.end(), place);
   if (after == places.begin()) return 0;
   const auto i = static_cast<std::size_t>(after - places.begin()) - 1;
-  return lengths[i] + (place > places[i] ? path_integral(speed, places[i], place) : 0);
+  return lengths[i] + (place > places[i] ? math::gauss_integral(speed, places[i], place) : 0);
 }
 template <class Speed>
 double place_of_length(double length, const std::vector<double>& places, const std::vector<double>& lengths,

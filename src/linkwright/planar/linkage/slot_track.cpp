@@ -2,25 +2,17 @@
 #include "linkwright/planar/linkage/detail/slot_track.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/gauss.h"
 
 namespace linkwright::planar {
 namespace {
 constexpr int samples_between = 16;  // two given points
-
-// Gauss-Legendre nodes and weights of the interval from -1 to 1.
-constexpr std::array<std::pair<double, double>, 5> gauss{{{0.0, 128.0 / 225},
-                                                          {-0.5384693101056831, 0.47862867049936647},
-                                                          {0.5384693101056831, 0.47862867049936647},
-                                                          {-0.9061798459386640, 0.23692688505618908},
-                                                          {0.9061798459386640, 0.23692688505618908}}};
 }  // namespace
 
 SlotTrack::SlotTrack(const CurvedSlot& slot) : closed_(slot.is_closed()) {
@@ -45,10 +37,7 @@ SlotTrack::SlotTrack(const CurvedSlot& slot) : closed_(slot.is_closed()) {
   for (int i = 0; i <= count; ++i) samples_.push_back(evaluate(to_ * i / count).at);
   ways_ = {0};
   for (int i = 0; i < count; ++i) {
-    const double half = to_ / count / 2, middle = to_ * (i + 0.5) / count;
-    double sum = 0;
-    for (const auto& [node, weight] : gauss) sum += weight * norm(evaluate(middle + half * node).first);
-    ways_.push_back(ways_.back() + half * sum);
+    ways_.push_back(ways_.back() + length_between(to_ * i / count, to_ * (i + 1) / count));
   }
   length_ = ways_.back();
 }
@@ -62,15 +51,16 @@ SlotTrack::CurvePoint SlotTrack::evaluate(double u) const {
   return {{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}};
 }
 
+double SlotTrack::length_between(double u, double v) const {
+  return math::gauss_integral([this](double at) { return norm(evaluate(at).first); }, u, v);
+}
+
 double SlotTrack::way_at(double u) const {
   if (radius_ > 0) return radius_ * std::abs(u - from_);
   const std::size_t count = ways_.size() - 1;
   const double step = to_ / static_cast<double>(count);
   const auto before = std::min(count - 1, static_cast<std::size_t>(std::max(0.0, u / step)));
-  const double start = step * static_cast<double>(before), half = (u - start) / 2;
-  double sum = 0;
-  for (const auto& [node, weight] : gauss) sum += weight * norm(evaluate(start + half * (1 + node)).first);
-  return ways_[before] + half * sum;
+  return ways_[before] + length_between(step * static_cast<double>(before), u);
 }
 
 SlotPlace SlotTrack::place(double u) const {

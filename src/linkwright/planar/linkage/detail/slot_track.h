@@ -36,6 +36,7 @@ class SlotTrack {
   };
   CurvePoint evaluate(double u) const;
   SlotPlace place(double u) const;
+  double length_between(double u, double v) const;
   double way_at(double u) const;
   double start_of_search(const math::Vec2& point) const;
 
