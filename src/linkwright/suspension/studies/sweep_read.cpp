@@ -287,6 +287,15 @@ Value sweep_of_found(const CornerDescription& description, const Suspension& fou
   return out;
 }
 
+namespace {
+/// The schema of the mechanism of another suspension, which may repeat its type.
+Value another_mechanism() {
+  Value out = study::schema_fields<CornerForm>();
+  out["properties"]["type"]["const"] = "suspension.corner";
+  return out;
+}
+}  // namespace
+
 study::Kind sweep_kind() {
   study::Kind kind;
   kind.kind = "analysis";
@@ -302,7 +311,7 @@ study::Kind sweep_kind() {
     const auto another = [&](const char* key, const char* summary) {
       study::SchemaWriter table;
       table.property(field::entry("file", "study whose mechanism it is"), Value());
-      table.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
+      table.property(field::entry("mechanism", "the mechanism itself"), another_mechanism());
       document.property(field::entry(key, summary), std::move(table).finish());
     };
     another("baseline", "another wheel suspension to compare with");
@@ -310,7 +319,7 @@ study::Kind sweep_kind() {
     study::SchemaWriter other;
     other.property(field::entry("name", "of the design, for diagrams").required(), Value());
     other.property(field::entry("file", "study whose mechanism it is"), Value());
-    other.property(field::entry("mechanism", "the mechanism itself"), study::schema_fields<CornerForm>());
+    other.property(field::entry("mechanism", "the mechanism itself"), another_mechanism());
     document.property(field::entry("other_design", "wheel suspensions whose curves are laid beside these"),
                       study::schema_array(std::move(other).finish()));
     describe_measured(document);
