@@ -122,7 +122,7 @@ TEST(Redundant, CoupledWheelsMoveWithForcesOfLeastSquares) {
     solve_forces(open, relaxed->plan, motion, 0, in.value, forces);
     EXPECT_NEAR(forces.drives[0], number_at(c, "drive_torque_N_m"), 1e-9);
     if (i > 0) continue;
-    spread_forces(open, relaxed->plan, motion, relaxed->joint, forces);
+    spread_forces(open, relaxed->plan, motion, relaxed->joint, RedundantForces::least_squares, forces);
     for (const Value::Member& pin : at(c, "least_squares_all_pins_N").as_object()) {
       const int j = joint_index(open, pin.key);
       const std::vector<double> wanted = numbers(pin.value);
@@ -135,7 +135,8 @@ TEST(Redundant, CoupledWheelsMoveWithForcesOfLeastSquares) {
   }
 }
 
-TEST(Redundant, MiddleCrankOfAParallelogramIsTaken) {
+// A rod on three parallel cranks of 150 mm.
+Linkage three_cranks() {
   Linkage l = grounded({{"A", 0}, {"M", 0.25}, {"B", 0.6}});
   const complex<double> crank = std::polar(0.15, 1.0);
   for (const char* name : {"A", "M", "B"}) {
@@ -144,11 +145,16 @@ TEST(Redundant, MiddleCrankOfAParallelogramIsTaken) {
     set_start(l, std::string("crank ") + name, l.bodies[0].points[index(point_index(l.bodies[0], name))].at,
               1.0);
   }
-  add_body(l, "rod", {{"A", 0}, {"M", 0.25}, {"B", 0.6}});
+  add_body(l, "rod", {{"A", 0}, {"M", 0.25}, {"B", 0.6}, {"F", 0.4}});
   set_start(l, "rod", crank, 0);
   for (const char* name : {"A", "M", "B"})
     add_pin(l, std::string("pin ") + name, std::string("crank ") + name + ".top", std::string("rod.") + name);
   add_drive(l, "A");
+  return l;
+}
+
+TEST(Redundant, MiddleCrankOfAParallelogramIsTaken) {
+  const Linkage l = three_cranks();
   EXPECT_EQ(mobility(l), number_at(published_case("planar-machines.json", "parallelogram-with-middle-crank"),
                                    "computed.gruebler"));
   std::string why;
@@ -156,6 +162,64 @@ TEST(Redundant, MiddleCrankOfAParallelogramIsTaken) {
   ASSERT_TRUE(relaxed) << why;
   EXPECT_EQ(relaxed->drawn.rank, 11);
   EXPECT_EQ(relaxed->drawn.redundant(), 1);
+}
+
+// The rod is a rigid beam on three parallel springs: the elongations of the cranks lie on a straight line.
+TEST(Redundant, CranksThatGiveWayShareALoadAsSpringsDo) {
+  Linkage l = three_cranks();
+  without_mass(l);
+  const char* names[] = {"A", "M", "B"};
+  const double x[] = {0, 0.25, 0.6}, stiffness[] = {1e6, 3e6, 2e6}, load = 100;
+  for (int i = 0; i < 3; ++i)
+    l.bodies[index(body_index(l, std::string("crank ") + names[i]))].stiffness = stiffness[i];
+  const int rod = body_index(l, "rod");
+  l.forces.push_back({.name = "load", .point = {rod, 3}, .force = load * std::polar(1.0, 1.0)});
+  std::string why;
+  const auto relaxed = relax_redundant(l, why);
+  ASSERT_TRUE(relaxed) << why;
+  EXPECT_TRUE(gives_way(l, relaxed->drawn));
+  EXPECT_FALSE(gives_way(three_cranks(), relaxed->drawn));
+  LinkageMotion motion(relaxed->plan);
+  LinkageForces forces;
+  const InputMotion in{relaxed->plan.drawn_inputs[0], 0, 0};
+  solve_motion(relaxed->plan, std::span(&in, 1), motion);
+  solve_forces(relaxed->linkage, relaxed->plan, motion, 0, in.value, forces);
+  spread_forces(relaxed->linkage, relaxed->plan, motion, relaxed->joint, RedundantForces::compliance, forces);
+  // Forces k (a + b x) with the sum of the load and its moment about A.
+  double k0 = 0, k1 = 0, k2 = 0;
+  for (int i = 0; i < 3; ++i) k0 += stiffness[i], k1 += stiffness[i] * x[i], k2 += stiffness[i] * x[i] * x[i];
+  const double determinant = k0 * k2 - k1 * k1, a = load * (k2 - 0.4 * k1) / determinant,
+               b = load * (0.4 * k0 - k1) / determinant;
+  for (int i = 0; i < 3; ++i) {
+    const int j = joint_index(relaxed->linkage, std::string("pin ") + names[i]);
+    const LinkageJoint& pin = relaxed->linkage.joints[index(j)];
+    const double on_rod = pin.second.body == rod ? 1 : -1;
+    const Vec2 force = on_rod * forces.joints[index(j)].force;
+    EXPECT_NEAR(dot(force, math::unit(1.0)), -stiffness[i] * (a + b * x[i]), 1e-9) << names[i];
+    EXPECT_NEAR(cross(force, math::unit(1.0)), 0, 1e-9);
+  }
+}
+
+TEST(Redundant, EqualComplianceOfAllJointsIsLeastSquares) {
+  Linkage l = wheels(40 * pi / 180, 1);
+  without_mass(l);
+  for (LinkageJoint& j : l.joints) j.compliance = 2e-7;
+  l.torques.push_back({.name = "brake 2", .body = body_index(l, "w2"), .torque = -100});
+  l.torques.push_back({.name = "brake 3", .body = body_index(l, "w3"), .torque = -150});
+  std::string why;
+  const auto relaxed = relax_redundant(l, why);
+  ASSERT_TRUE(relaxed) << why;
+  LinkageMotion motion(relaxed->plan);
+  const InputMotion in{relaxed->plan.drawn_inputs[0] + 0.3, 1, 0};
+  solve_motion(relaxed->plan, std::span(&in, 1), motion);
+  LinkageForces squares, energy;
+  for (auto* forces : {&squares, &energy}) {
+    solve_forces(relaxed->linkage, relaxed->plan, motion, 0, in.value, *forces);
+    spread_forces(relaxed->linkage, relaxed->plan, motion, relaxed->joint,
+                  forces == &squares ? RedundantForces::least_squares : RedundantForces::compliance, *forces);
+  }
+  for (std::size_t j = 0; j < squares.joints.size(); ++j)
+    EXPECT_LT(norm(squares.joints[j].force - energy.joints[j].force), 1e-9);
 }
 
 // A third crank that is longer, but parallel to the others in the drawing: it can move for an instant alone.

@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/planar/studies/linkage.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
 
@@ -47,6 +49,34 @@ TEST(LinkageRedundant, CoupledWheelsMoveAndSayWhichJointsAreTooMany) {
   const auto second = prepare(study::to_toml(first->canonical), messages);
   ASSERT_TRUE(second) << messages;
   EXPECT_EQ(first->canonical, second->canonical);
+}
+
+TEST(LinkageRedundant, ForcesFollowTheComplianceOfJoints) {
+  const std::string asked = coupled_wheels() + "\n[redundant]\nforces = \"compliance\"\n";
+  EXPECT_THAT(problems_of(asked), HasSubstr("nothing gives way to the forces that balance each other"));
+  const std::string soft = replaced(asked, "name   = \"P3\"", "name   = \"P3\"\ncompliance_m_per_N = 1e-6");
+  std::string messages;
+  const auto first = prepare(soft, messages);
+  ASSERT_TRUE(first) << messages;
+  const auto second = prepare(study::to_toml(first->canonical), messages);
+  ASSERT_TRUE(second) << messages;
+  EXPECT_EQ(first->canonical, second->canonical);
+  const study::Result result = run_text(soft), squares = run_text(coupled_wheels());
+  EXPECT_EQ(fact(result, "redundant joint forces"), "by the compliance of bars and joints");
+  EXPECT_EQ(fact(squares, "redundant joint forces"), "by least squares");
+  // In the drawn position, row 30, the only pin that gives way has no force along its self-stress.
+  const Table& stress = table(result, "self_stress");
+  EXPECT_EQ(stress.rows(), 6u);
+  const auto at_p3 = static_cast<std::size_t>(std::find(stress.names.begin(), stress.names.end(), "P3") -
+                                              stress.names.begin());
+  const double sx = stress.find("stress_1_x")->values.at(at_p3),
+               sy = stress.find("stress_1_y")->values.at(at_p3);
+  EXPECT_NEAR(column(result, "P3_x_N")[30] * sx + column(result, "P3_y_N")[30] * sy, 0, 1e-8);
+  EXPECT_GT(std::abs(column(squares, "P3_x_N")[30] * sx + column(squares, "P3_y_N")[30] * sy), 1e-3);
+  // The drive does not depend on the rule.
+  EXPECT_NEAR(column(result, "A1_drive_torque_N_m")[7], column(squares, "A1_drive_torque_N_m")[7], 1e-9);
+  EXPECT_THAT(problems_of(std::string(linkage_kind().example) + "\n[redundant]\n"),
+              HasSubstr("no joint of the linkage is redundant"));
 }
 
 TEST(LinkageRedundant, WheelsThatLockAreNamed) {

@@ -35,6 +35,7 @@ LinkageBody body_of(const BodyForm& form, bool drawn) {
   else if (drawn)
     body.start = math::Pose{};
   if (form.mass) body.mass = BodyMass{*form.mass, 0, 0};
+  body.stiffness = form.stiffness.value_or(0);
   return body;
 }
 
@@ -311,6 +312,7 @@ LinkageJoint joint_of(const JointForm& f, bool drawn, FormNames& names) {
                     f.spindle_inertia.value_or(0),
                     f.hand == ThreadHand::left};
   }
+  j.compliance = f.compliance.value_or(0);
   j.slide_first = f.direction;
   j.slide_second = f.direction_second.value_or(drawn && (j.type == JointType::prismatic) ? f.direction : 0.0);
   j.phase = f.phase;
@@ -551,6 +553,7 @@ LinkageForm form_of(const Linkage& l) {
     if (b.mass) f.mass = b.mass->mass, f.inertia = b.mass->inertia, f.centre = place(b.mass->centre);
     for (const AttachedMass& m : b.attached) f.attached.push_back({m.name, m.mass, place(m.at)});
     if (b.start) f.start = StartForm{b.start->x, b.start->y, b.start->angle};
+    if (b.stiffness > 0) f.stiffness = b.stiffness;
     form.bodies.push_back(std::move(f));
   }
   for (const LinkageJoint& j : l.joints) {
@@ -588,6 +591,7 @@ LinkageForm form_of(const Linkage& l) {
     }
     f.friction = j.screw ? j.screw->friction : j.friction, f.pin_radius = j.pin_radius,
     f.guide_length = j.guide_length;
+    if (j.compliance > 0) f.compliance = j.compliance;
     if (j.friction_static > 0) f.friction_static = j.friction_static;
     if (!j.friction_values.empty())
       f.friction_table = FrictionTableForm{j.friction_speeds, j.friction_values};

@@ -34,6 +34,7 @@ struct BodyForm {
   std::optional<Place> centre;
   std::vector<AttachedMassForm> attached;
   std::optional<StartForm> start;
+  std::optional<double> stiffness;
 };
 /// The wheel of a gear that has its teeth inside.
 enum class InternalWheel {
@@ -89,6 +90,7 @@ struct JointForm {
   std::optional<ThreadHand> hand;
   std::optional<int> slots;
   std::optional<double> slot_angle;
+  std::optional<double> compliance;
   double friction = 0, pin_radius = 0, guide_length = 0;
   std::optional<double> friction_static, friction_torque, friction_force, stribeck_speed;
   std::optional<FrictionTableForm> friction_table;
@@ -265,6 +267,10 @@ void fields(Visitor&& visit, BodyForm& b) {
         b.centre);
   visit(field::entry("attached", "masses that sit on the body: counterweights, payloads"), b.attached);
   visit(field::entry("start", "approximate position of the body at the start"), b.start);
+  visit(
+      field::stiffness("stiffness", "axial stiffness between its two pins, for [redundant]; if absent rigid")
+          .positive(),
+      b.stiffness);
 }
 template <class Visitor>
 void fields(Visitor&& visit, FrictionTableForm& t) {
@@ -352,6 +358,9 @@ void screw_fields(Visitor& visit, JointForm& j) {
 }
 template <class Visitor>
 void friction_fields(Visitor& visit, JointForm& j) {
+  visit(field::entry("compliance_m_per_N", "displacement by force (m/N), for [redundant]; if absent rigid")
+            .positive(),
+        j.compliance);
   visit(field::entry("friction", "coefficient of Coulomb friction; of a screw that of its thread")
             .between(0, 10),
         j.friction);

@@ -74,6 +74,13 @@ class Checker {
     const std::string key = "body." + b.name;
     for (const LinkagePoint& p : b.points)
       if (!finite(p.at)) error(key + ".point." + p.name, "its coordinates are not finite", {});
+    const auto joints = std::count_if(l_.joints.begin(), l_.joints.end(), [&](const LinkageJoint& j) {
+      const LinkageBody* bodies = l_.bodies.data();
+      return bodies + j.first.body == &b || bodies + j.second.body == &b;
+    });
+    if (b.stiffness > 0 && joints != 2)
+      error(key, fmt::format("has an axial stiffness, and {} joints", joints),
+            "a bar has two; give the joints their compliance_m_per_N instead");
     if (b.mass && !(b.mass->mass >= 0 && b.mass->inertia >= 0 &&
                     std::isfinite(b.mass->mass + b.mass->inertia) && finite(b.mass->centre)))
       error(key + ".mass",

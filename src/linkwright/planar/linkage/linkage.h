@@ -46,6 +46,8 @@ struct LinkageBody {
   std::vector<LinkagePoint> points;    ///< points that joints, springs, forces and traces name
   std::optional<BodyMass> mass;        ///< without what is attached; nothing where it is not given
   std::vector<AttachedMass> attached;  ///< masses fixed to the body
+  /// Axial stiffness between its two pins (N/m), by which redundant joint forces are divided; 0: it is rigid.
+  double stiffness = 0;
   /// The approximate pose of the body at the start: gives the assembly mode of its group, and is where a
   /// search starts. Not needed for groups whose mode is given.
   std::optional<math::Pose> start;
@@ -199,6 +201,7 @@ struct LinkageJoint {
   std::vector<double> friction_speeds = {};
   std::vector<double> friction_values = {};             ///< coefficients at these speeds
   FrictionFall friction_fall = FrictionFall::stribeck;  ///< curve along which the coefficient falls
+  double compliance = 0;  ///< m/N, by which redundant joint forces are divided; 0: it is rigid
 };
 
 /// The assembly mode of a pair of bodies, one of two. The bodies are those of a dyad: `first` and `second`

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <numeric>
 #include <utility>
 
 #include "linkwright/core/numbers.h"
@@ -191,43 +192,147 @@ std::optional<RelaxedLinkage> relax_redundant(const Linkage& linkage, std::strin
   return std::nullopt;
 }
 
+namespace {
+
+// The force or moment of one equation: its joint and direction, or the moment of the joint.
+struct StressRow {
+  int joint = 0;
+  Vec2 direction{0, 0};
+  bool is_moment = false;
+};
+
+std::vector<StressRow> stress_rows(const Linkage& l, std::span<const PartState<double>> bodies,
+                                   const ConstraintRank& rank, int as_pin) {
+  std::vector<StressRow> out;
+  while (out.size() < rank.joint.size()) {
+    const int k = rank.joint[out.size()];
+    const LinkageJoint& j = l.joints[at(k)];
+    if (j.type == JointType::revolute || j.type == JointType::fixed || k == as_pin) {
+      out.push_back({k, {1, 0}});
+      out.push_back({k, {0, 1}});
+    } else {
+      const Vec2 slide = rotate(bodies[at(j.first.body)].direction, math::unit(j.slide_first));
+      out.push_back({k, perpendicular(slide)});
+    }
+    if (j.type == JointType::prismatic || j.type == JointType::fixed) out.push_back({k, {0, 0}, true});
+  }
+  return out;
+}
+
+// The axial force of a bar by the rows: half of what each of its two pins pulls. Nothing for a body with
+// another number of pins.
+std::vector<double> axial_row(const Linkage& l, std::span<const PartState<double>> bodies,
+                              const std::vector<StressRow>& rows, int body) {
+  std::vector<int> pins;
+  for (int k = 0; k < static_cast<int>(l.joints.size()); ++k)
+    if (l.joints[at(k)].first.body == body || l.joints[at(k)].second.body == body) pins.push_back(k);
+  if (pins.size() != 2) return {};
+  const auto place = [&](int joint) {
+    const LinkageJoint& j = l.joints[at(joint)];
+    return point_on(bodies[at(body)], math::vec(place_of(l, j.first.body == body ? j.first : j.second)));
+  };
+  const Vec2 way = place(pins[1]) - place(pins[0]);
+  if (!(norm(way) > 0)) return {};
+  const Vec2 along = (1 / norm(way)) * way;
+  std::vector<double> out(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].is_moment || (rows[i].joint != pins[0] && rows[i].joint != pins[1])) continue;
+    const double on_body = l.joints[at(rows[i].joint)].second.body == body ? 1 : -1;
+    const double pulls = rows[i].joint == pins[1] ? 1 : -1;
+    out[i] = on_body * pulls / 2 * dot(along, rows[i].direction);
+  }
+  return out;
+}
+
+double dot_of(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+// Twice the energy of pairs of forces, by the rule.
+class StressEnergy {
+ public:
+  StressEnergy(const Linkage& l, std::span<const PartState<double>> bodies,
+               const std::vector<StressRow>& rows, RedundantForces rule)
+      : weights_(rows.size(), 1.0) {
+    if (rule == RedundantForces::least_squares) return;
+    for (std::size_t i = 0; i < rows.size(); ++i) weights_[i] = l.joints[at(rows[i].joint)].compliance;
+    for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b) {
+      if (!(l.bodies[at(b)].stiffness > 0)) continue;
+      std::vector<double> row = axial_row(l, bodies, rows, b);
+      if (!row.empty()) bars_.emplace_back(std::move(row), 1 / l.bodies[at(b)].stiffness);
+    }
+  }
+  double operator()(const std::vector<double>& a, const std::vector<double>& b) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) sum += weights_[i] * a[i] * b[i];
+    for (const auto& [row, compliance] : bars_) sum += compliance * dot_of(row, a) * dot_of(row, b);
+    return sum;
+  }
+  // The matrix of the energy over the self-stresses.
+  std::vector<double> matrix(const std::vector<std::vector<double>>& stresses) const {
+    std::vector<double> out;
+    for (const auto& a : stresses)
+      for (const auto& b : stresses) out.push_back((*this)(a, b));
+    return out;
+  }
+
+ private:
+  std::vector<double> weights_;
+  std::vector<std::pair<std::vector<double>, double>> bars_;  // axial forces and compliances (m/N)
+};
+
+}  // namespace
+
+bool gives_way(const Linkage& drawn, const ConstraintRank& rank) {
+  const std::vector<PartState<double>> bodies = drawn_bodies(drawn);
+  const StressEnergy energy(drawn, bodies, stress_rows(drawn, bodies, rank, -1), RedundantForces::compliance);
+  const std::vector<double> matrix = energy.matrix(rank.self_stress);
+  const std::vector<double> values = math::singular_vectors(matrix, rank.self_stress.size()).values;
+  return !values.empty() && values.back() > 1e-9 * values.front();
+}
+
+std::vector<JointReaction> self_stress_forces(const Linkage& drawn, const ConstraintRank& rank,
+                                              std::size_t stress) {
+  const std::vector<StressRow> rows = stress_rows(drawn, drawn_bodies(drawn), rank, -1);
+  std::vector<JointReaction> out(drawn.joints.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    JointReaction& r = out[at(rows[i].joint)];
+    if (rows[i].is_moment)
+      r.moment = rank.self_stress[stress][i] * size_of(drawn);
+    else
+      r.force = r.force + rank.self_stress[stress][i] * rows[i].direction;
+  }
+  return out;
+}
+
 void spread_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, int joint,
-                   LinkageForces& forces) {
+                   RedundantForces rule, LinkageForces& forces) {
   if (forces.status != Status::done) return;
   std::vector<PartState<double>> bodies;
   for (int b = 0; b < static_cast<int>(l.bodies.size()); ++b) bodies.push_back(body_state(plan, motion, b));
   const int pins[] = {joint};
   const auto rank = constraint_rank(l, plan.size, bodies, pins);
-  if (!rank) return;
+  if (!rank || rank->self_stress.empty()) return;
   // The forces of the joints in the order of the equations; moments by the size.
-  const auto visit = [&](auto&& each) {
-    for (std::size_t i = 0; i < rank->joint.size();) {
-      const LinkageJoint& j = l.joints[at(rank->joint[i])];
-      JointReaction& r = forces.joints[at(rank->joint[i])];
-      const bool pin = j.type == JointType::revolute || j.type == JointType::fixed || rank->joint[i] == joint;
-      if (pin) {
-        each(i++, Vec2{1, 0}, &r.force, nullptr);
-        each(i++, Vec2{0, 1}, &r.force, nullptr);
-      } else {
-        const Vec2 slide = rotate(bodies[at(j.first.body)].direction, math::unit(j.slide_first));
-        each(i++, perpendicular(slide), &r.force, nullptr);
-      }
-      if (j.type == JointType::prismatic || j.type == JointType::fixed)
-        each(i++, Vec2{0, 0}, nullptr, &r.moment);
-    }
-  };
-  for (const std::vector<double>& stress : rank->self_stress) {
-    double share = 0;
-    visit([&](std::size_t i, Vec2 direction, const Vec2* force, const double* moment) {
-      share += stress[i] * (force ? dot(direction, *force) : *moment / plan.size);
-    });
-    visit([&](std::size_t i, Vec2 direction, Vec2* force, double* moment) {
-      if (force)
-        *force = *force - (share * stress[i]) * direction;
-      else
-        *moment -= share * stress[i] * plan.size;
-    });
+  const std::vector<StressRow> rows = stress_rows(l, bodies, *rank, joint);
+  std::vector<double> now;
+  for (const StressRow& row : rows) {
+    const JointReaction& r = forces.joints[at(row.joint)];
+    now.push_back(row.is_moment ? r.moment / plan.size : dot(row.direction, r.force));
   }
+  const StressEnergy energy(l, bodies, rows, rule);
+  std::vector<double> right;
+  for (const std::vector<double>& stress : rank->self_stress) right.push_back(-energy(stress, now));
+  const std::vector<double> shares = math::solve_symmetric(energy.matrix(rank->self_stress), right);
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      JointReaction& r = forces.joints[at(rows[i].joint)];
+      const double change = shares[k] * rank->self_stress[k][i];
+      if (rows[i].is_moment)
+        r.moment += change * plan.size;
+      else
+        r.force = r.force + change * rows[i].direction;
+    }
 }
 
 }  // namespace linkwright::planar

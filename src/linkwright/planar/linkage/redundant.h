@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/field.h"
 #include "linkwright/planar/linkage/motion.h"
 
 /// @file
@@ -50,8 +52,26 @@ std::optional<RelaxedLinkage> relax_redundant(const Linkage& linkage, std::strin
 /// By how far the left-out direction of the pin is open, m.
 double relaxed_gap(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, int joint);
 
-/// Changes the joint forces to those of least squares: without a part that balances itself.
+/// The rule by which redundant joints share forces that balance each other.
+enum class RedundantForces {
+  least_squares,  ///< least sum of the squares of all joint forces
+  compliance      ///< least energy of joints and bars that give way
+};
+constexpr std::array<EnumName<RedundantForces>, 2> names(RedundantForces) {
+  return {{{RedundantForces::least_squares, "least_squares", "least sum of the squares of all joint forces"},
+           {RedundantForces::compliance, "compliance", "least energy of joints and bars that give way"}}};
+}
+
+/// True if every self-stress of the drawing meets a joint or bar that gives way, so that the rule
+/// `compliance` determines all forces.
+bool gives_way(const Linkage& drawn, const ConstraintRank& rank);
+
+/// A self-stress of the drawing as forces in its joints, one a joint, whose squares sum to one.
+std::vector<JointReaction> self_stress_forces(const Linkage& drawn, const ConstraintRank& rank,
+                                              std::size_t stress);
+
+/// Changes the joint forces by parts that balance themselves, so that they follow the rule.
 void spread_forces(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, int joint,
-                   LinkageForces& forces);
+                   RedundantForces rule, LinkageForces& forces);
 
 }  // namespace linkwright::planar

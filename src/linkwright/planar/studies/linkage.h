@@ -16,6 +16,7 @@
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/motor.h"
 #include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/linkage/redundant.h"
 #include "linkwright/planar/linkage/slider_crank.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -93,7 +94,20 @@ struct LinkageHolding {
 struct RedundantJoint {
   int joint = -1;
   int equations = 0, rank = 0;  ///< of all joints in the drawn position
+  RedundantForces rule = RedundantForces::least_squares;
+  bool gives_way = false;  ///< the rule `compliance` determines all forces
+  /// Forces in the joints of the drawing that balance each other, one list a self-stress.
+  std::vector<std::vector<JointReaction>> stresses = {};
 };
+/// `[redundant]`.
+struct RedundantForm {
+  RedundantForces forces = RedundantForces::least_squares;
+};
+template <class Visitor>
+void fields(Visitor&& visit, RedundantForm& r) {
+  visit(field::entry("forces", "rule by which redundant joints share forces that balance each other"),
+        r.forces);
+}
 
 /// A study of a linkage as read.
 struct LinkageStudy {

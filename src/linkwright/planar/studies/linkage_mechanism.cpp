@@ -321,9 +321,14 @@ bool take_redundant(study::ObjectReader& mechanism, PlanResult& planned, Linkage
       fmt::format("one of the joints {} holds one direction too many; the linkage moves since its "
                   "dimensions agree ({} equations of rank {} for {} coordinates)",
                   joints, relaxed->drawn.equations, relaxed->drawn.rank, relaxed->drawn.coordinates),
-      "joint forces are those of least squares; play and errors of make add to them");
+      "joint forces are those of least squares, or of [redundant]; play and errors of make add to them");
   out.shorthand = form_value(l);
-  out.redundant = RedundantJoint{relaxed->joint, relaxed->drawn.equations, relaxed->drawn.rank};
+  out.redundant = RedundantJoint{.joint = relaxed->joint,
+                                 .equations = relaxed->drawn.equations,
+                                 .rank = relaxed->drawn.rank,
+                                 .gives_way = gives_way(l, relaxed->drawn)};
+  for (std::size_t k = 0; k < relaxed->drawn.self_stress.size(); ++k)
+    out.redundant->stresses.push_back(self_stress_forces(l, relaxed->drawn, k));
   l = std::move(relaxed->linkage);
   planned.plan = std::move(relaxed->plan);
   planned.problems.clear();

@@ -52,6 +52,8 @@ constexpr std::array<EnumName<SweepRange>, 2> names(SweepRange) {
         "and last value then only bound it and may be left out"}}};
 }
 constexpr Field circuits_field = field::entry("circuits", "which positions of a grid over one input count");
+constexpr Field redundant_field =
+    field::entry("redundant", "how redundant joints of a linkage share their forces");
 constexpr Field range_field = field::entry("range", "how far a grid over one input goes");
 constexpr Field change_point_field =
     field::entry("at_change_point", "grid over one input: how the linkage continues at a change point");
@@ -320,6 +322,23 @@ void take_path(study::ObjectReader& document, const study::Common& common, Linka
   canonical = study::write_fields(form);
 }
 
+// `[redundant]` of an analysis whose linkage has a joint too many.
+void read_redundant(study::ObjectReader& document, LinkageDescription& description, Value& canonical) {
+  auto table = document.table(redundant_field);
+  if (!table) return;
+  RedundantForm form;
+  table->read(form);
+  canonical["redundant"] = study::write_fields(form);
+  if (!description.redundant) {
+    table->error("forces", "no joint of the linkage is redundant", "leave [redundant] out");
+    return;
+  }
+  if (form.forces == RedundantForces::compliance && !description.redundant->gives_way)
+    table->error("forces", "nothing gives way to the forces that balance each other",
+                 "give bars their stiffness_N_per_m, or joints their compliance_m_per_N");
+  description.redundant->rule = form.forces;
+}
+
 }  // namespace
 
 std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
@@ -396,6 +415,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   Value canonical_holding;
   s.holding = read_holding(document, l, description->plan, canonical ? &canonical_holding : nullptr);
   if (canonical) s.motors = read_motors(document, s);
+  if (canonical) read_redundant(document, *description, *canonical);
   if (canonical) say_what_is_not_known(document, description->plan, common.output.quantities, s.quality);
   if (canonical) {
     write_linkage(*description, *canonical);
@@ -470,6 +490,7 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   document.property(field::entry("quality", "what is computed beyond the table"),
                     study::schema_fields<LinkageQuality>());
   describe_holding(document);
+  if (type == LinkageType::linkage) document.property(redundant_field, study::schema_fields<RedundantForm>());
   describe_path(document);
   describe_motors(document);
 }

@@ -149,7 +149,8 @@ Status RowSolver::solve(std::size_t r) {
   if (there && s_.redundant && motion.status == Status::done) check_redundant();
   const bool dynamic = s_.quantities.dynamic();
   if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
-  if (dynamic && s_.redundant) spread_forces(s_.linkage, s_.plan, motion, s_.redundant->joint, forces);
+  if (dynamic && s_.redundant)
+    spread_forces(s_.linkage, s_.plan, motion, s_.redundant->joint, s_.redundant->rule, forces);
   // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
   // none.
   const bool kink = s_.at_change_point == AtChangePoint::keep_sign;

@@ -213,6 +213,33 @@ class Runner {
                      : bad != statuses_.end()      ? *bad
                                                    : Status::done;
     result_.tables.push_back(std::move(table));
+    if (s_.redundant) self_stress_table();
+  }
+
+  // What play or an error of make can add to the joint forces: forces that balance each other, in the
+  // drawing.
+  void self_stress_table() {
+    Table table{.name = "self_stress"};
+    const auto& stresses = s_.redundant->stresses;
+    std::vector<std::size_t> joints;
+    for (std::size_t j = 0; j < s_.linkage.joints.size(); ++j)
+      if (std::any_of(stresses.begin(), stresses.end(), [&](const std::vector<JointReaction>& s) {
+            return norm(s[j].force) > 1e-9 || std::abs(s[j].moment) > 1e-9 * s_.plan.size;
+          }))
+        joints.push_back(j);
+    for (const std::size_t j : joints) table.names.push_back(s_.linkage.joints[j].name);
+    for (std::size_t k = 0; k < stresses.size(); ++k) {
+      const std::string key = fmt::format("stress_{}_", k + 1), words = fmt::format("self-stress {} ", k + 1);
+      const auto add = [&](const char* part, Dimension dimension, const auto& of) {
+        std::vector<double> values;
+        for (const std::size_t j : joints) values.push_back(of(stresses[k][j]));
+        table.add({key + part, words + part, dimension}, std::move(values));
+      };
+      add("x", Dimension::none, [](const JointReaction& r) { return r.force.x; });
+      add("y", Dimension::none, [](const JointReaction& r) { return r.force.y; });
+      add("lever", Dimension::length, [](const JointReaction& r) { return r.moment; });
+    }
+    result_.tables.push_back(std::move(table));
   }
 
   std::vector<std::string> columns_ending(std::string_view ending, std::size_t most) const {
@@ -315,6 +342,10 @@ class Runner {
       fact("redundant constraints",
            say("{}: {} equations of rank {}", s_.redundant->equations - s_.redundant->rank,
                s_.redundant->equations, s_.redundant->rank));
+    if (s_.redundant && s_.quantities.reactions)
+      fact("redundant joint forces", s_.redundant->rule == RedundantForces::compliance
+                                         ? "by the compliance of bars and joints"
+                                         : "by least squares");
     std::string order;
     for (const Group& g : s_.plan.groups)
       order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, traits_of(g).name,
