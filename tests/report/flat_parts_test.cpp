@@ -5,6 +5,8 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/report/flat_scene.h"
 
@@ -37,6 +39,32 @@ TEST(FlatParts, MeetAtPinsWhereEachHasAPointOfItsOwn) {
   EXPECT_EQ(mechanism.pins[1].first, 1);
   EXPECT_EQ(mechanism.pins[1].last, 2);
   EXPECT_EQ(mechanism.parts[2].holes.size(), 2U);
+}
+
+TEST(FlatParts, ContoursWithoutNamesAreNoLinks) {
+  Scene scene = parallel_crank();
+  const int corner = static_cast<int>(scene.points.size());
+  for (const double x : {0.01, 0.02, 0.03}) scene.points.push_back({"", {x}, {x * x}});
+  scene.bodies.push_back({"cam", {corner, corner + 1, corner + 2}, Scene::BodyStyle::plate});
+  EXPECT_EQ(flat_parts(scene, 0, sizes).parts.size(), 4U);
+}
+
+TEST(FlatParts, PinsWithinAPlateAreItsHoles) {
+  // The coupler is a plate around the pin A, which is none of its corners.
+  Scene scene = parallel_crank();
+  const int corner = static_cast<int>(scene.points.size());
+  const std::vector<double> x = scene.points[1].x, y = scene.points[1].y;
+  for (const auto& [dx, dy] : {std::pair(-0.02, -0.02), std::pair(0.1, 0.0), std::pair(-0.02, 0.02)}) {
+    Scene::Point p{"corner", x, y};
+    for (double& value : p.x) value += dx;
+    for (double& value : p.y) value += dy;
+    scene.points.push_back(std::move(p));
+  }
+  scene.bodies[1] = {"coupler", {corner, corner + 1, corner + 2}, Scene::BodyStyle::plate};
+  const FlatMechanism mechanism = flat_parts(scene, 0, sizes);
+  EXPECT_EQ(mechanism.parts[2].holes.size(), 2U);  // A, and B at a corner
+  EXPECT_EQ(mechanism.parts[1].holes.size(), 2U);
+  EXPECT_EQ(mechanism.parts[3].holes.size(), 2U);
 }
 
 TEST(FlatParts, TakeTheSizeOfTheMechanismWhereNothingIsGiven) {

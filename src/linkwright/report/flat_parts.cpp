@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -108,6 +109,26 @@ std::vector<int> merged_points(const Scene& scene) {
   return out;
 }
 
+/// True if a point keeps its distances from two others while these move, so that it lies on their body.
+bool moves_with(const Scene& scene, int point, int first, int second) {
+  const double near = 1e-7 * extent(scene);
+  const auto apart = [&](int a, int b, std::size_t sample) {
+    const Place p = place(scene, a, sample), q = place(scene, b, sample);
+    return std::hypot(p.x - q.x, p.y - q.y);
+  };
+  std::optional<std::size_t> start;
+  bool has_moved = false;
+  for (std::size_t sample = 0; sample < scene.samples(); ++sample) {
+    if (!assembled(scene, sample)) continue;
+    if (!start) start = sample;
+    for (const int corner : {first, second})
+      if (!(std::abs(apart(point, corner, sample) - apart(point, corner, *start)) <= near)) return false;
+    const Place now = place(scene, second, sample), then = place(scene, second, *start);
+    has_moved = has_moved || std::hypot(now.x - then.x, now.y - then.y) > 1e-3 * extent(scene);
+  }
+  return has_moved;
+}
+
 std::vector<Outline> outlines_of(const Scene& scene, const std::vector<int>& merged) {
   std::set<int> pins, fixed;
   const auto at = [&](int point) { return merged[static_cast<std::size_t>(point)]; };
@@ -120,9 +141,15 @@ std::vector<Outline> outlines_of(const Scene& scene, const std::vector<int>& mer
   for (const Scene::Body& body : scene.bodies) {
     const bool is_part = body.style == Scene::BodyStyle::bar || body.style == Scene::BodyStyle::plate;
     if (!is_part || body.run > 0 || body.points.size() < 2) continue;
+    // The corners of cams, blocks and faces have no names: they are drawn, and are no points of links.
+    if (std::any_of(body.points.begin(), body.points.end(),
+                    [&](int point) { return scene.points[static_cast<std::size_t>(point)].name.empty(); }))
+      continue;
     Outline part{body.name, body.points, {}};
     for (const int point : body.points)
       if (pins.count(at(point)) > 0) part.pins.insert(at(point));
+    for (const int pin : pins)  // within a plate
+      if (moves_with(scene, pin, body.points[0], body.points[1])) part.pins.insert(pin);
     out.push_back(std::move(part));
   }
   return out;

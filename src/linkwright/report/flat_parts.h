@@ -40,7 +40,8 @@ struct FlatMechanism {
 /// The bars and plates of a planar scene as flat parts, and its fixed pivots as one. Parts that share a pin,
 /// or that would touch at some sample, lie in different layers: each in the lowest one in which it touches
 /// nothing and no pin passes through it, or above all others where there is none.
-/// @param scene planar scene; springs, dampers, guides and wheels are no parts
+/// @param scene planar scene; springs, dampers, guides, wheels, and contours of cams and blocks,
+///   whose corners have no names, are no parts
 /// @param sample pose at which the parts are drawn
 /// @param sizes widths and thickness; what is not given is chosen by the size of the scene
 /// @returns the parts; none where the scene is spatial or has no body with two points
