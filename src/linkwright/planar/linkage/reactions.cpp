@@ -53,11 +53,6 @@ double strength(const LoadFactor& f, bool turns, double time, double input, cons
   return 1;
 }
 
-PointMotion point_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
-                     const BodyPoint& p) {
-  return point_motion(l, plan, motion, p);
-}
-
 const PartState<double>& part_of(const LinkagePlan& plan, const LinkageMotion& motion, int body) {
   return motion.parts[at(plan.bodies[at(body)].part)];
 }
@@ -357,7 +352,7 @@ void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
           sum = sum - needs[b];
     }
     JointReaction& r = f.joints[k];
-    r.point = point_of(l, plan, motion, weld.second).position;
+    r.point = point_motion(l, plan, motion, weld.second).position;
     const Wrench<double> w = shifted(sum, -r.point);
     r.force = w.force;
     r.moment = w.moment;
@@ -386,7 +381,7 @@ void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& moti
     if (j.type == JointType::prismatic) {
       const math::Vec2 along =
           rotate(body_state(plan, motion, j.first.body).direction, math::unit(j.slide_first));
-      const math::Vec2 point = point_of(l, plan, motion, j.second).position;
+      const math::Vec2 point = point_motion(l, plan, motion, j.second).position;
       rate = dot(along, velocity_at(second, point) - velocity_at(first, point));
     }
     f.drive_power += f.drives[i] * rate;
@@ -408,7 +403,7 @@ void nothing(LinkageForces& f) {
 void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
                    double input, std::vector<AppliedLoad>& loads) {
   for (const LinearSpring& s : l.springs) {
-    const PointMotion a = point_of(l, plan, motion, s.first), b = point_of(l, plan, motion, s.second);
+    const PointMotion a = point_motion(l, plan, motion, s.first), b = point_motion(l, plan, motion, s.second);
     const math::Vec2 way = b.position - a.position;
     const double length = norm(way);
     // Without a length there is no direction: as if at rest length.
@@ -428,7 +423,7 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   }
   const bool turns = !plan.rotary.empty() && plan.rotary[0];
   for (const PointForce& p : l.forces) {
-    const math::Vec2 there = point_of(l, plan, motion, p.point).position;
+    const math::Vec2 there = point_motion(l, plan, motion, p.point).position;
     math::Vec2 force{0, 0};
     if (p.formula) {
       const std::array<double, 2> values = values_of(*p.formula, l, plan, motion, time);

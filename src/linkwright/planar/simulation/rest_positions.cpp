@@ -8,6 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/math/minimum.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/stop.h"
 #include "linkwright/planar/simulation/holding.h"
@@ -280,7 +281,10 @@ class LoadPathScan {
     out.snaps = inside(k + step) && std::isfinite(multiple(k + step));
     out.leaves = !out.snaps;
     out.to = value(k);
-    if (out.snaps) out.to = greatest_between(value(k - step), value(k + step));
+    if (out.snaps)
+      out.to = math::minimum_about([&](double v) { return -factor(v); }, value(k - 1), value(k), value(k + 1),
+                                   {.absolute = 1e-12 * std::abs(value(k + 1) - value(k - 1))})
+                   .at;
     out.factor = factor(out.to);
     // The fold itself may lie beyond the full load.
     if (out.snaps && out.factor >= 1) {
@@ -289,14 +293,6 @@ class LoadPathScan {
       out.factor = 1;
     }
     return out;
-  }
-  double greatest_between(double a, double b) {
-    const double golden = (3 - std::sqrt(5.0)) / 2;
-    for (int i = 0; i < 60; ++i) {
-      const double left = a + golden * (b - a), right = b - golden * (b - a);
-      (factor(left) >= factor(right) ? b : a) = factor(left) >= factor(right) ? right : left;
-    }
-    return (a + b) / 2;
   }
 
   StaticForces with_, without_;

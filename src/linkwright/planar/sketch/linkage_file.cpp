@@ -252,12 +252,9 @@ class Builder {
       return left_below(a.first, b.first) || (a.first == b.first && a.second < b.second);
     });
     for (const auto& [at, id] : sorted) {
-      const std::size_t letter = out_.points.size() % 26, round = out_.points.size() / 26;
-      std::string name(1, static_cast<char>('A' + letter));
-      if (round > 0) name += std::to_string(round + 1);
       point_[id] = out_.points.size();
       if (file_.connectors.at(id).traced) out_.traced.push_back(out_.points.size());
-      out_.points.push_back({std::move(name), at});
+      out_.points.push_back({sketching::letter_of(out_.points.size()), at});
     }
   }
 

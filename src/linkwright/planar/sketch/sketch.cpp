@@ -359,10 +359,7 @@ class Reader {
       index[node] = d_.out.points.size();
       const bool used = !d_.members[node].empty();
       if (!used) continue;
-      const std::size_t letter = d_.out.points.size() % 26, round = d_.out.points.size() / 26;
-      std::string name(1, static_cast<char>('A' + letter));
-      if (round > 0) name += std::to_string(round + 1);
-      d_.out.points.push_back({name, d_.nodes.places()[node]});
+      d_.out.points.push_back({sketching::letter_of(d_.out.points.size()), d_.nodes.places()[node]});
       std::set<std::size_t> bodies(d_.members[node].begin(), d_.members[node].end());
       for (const auto* more : {&d_.slide_owners, &d_.welded})
         if (const auto found = more->find(node); found != more->end())

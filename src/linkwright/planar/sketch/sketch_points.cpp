@@ -144,6 +144,12 @@ std::size_t Nodes::at(Place place) const {
   return group_of_raw_[static_cast<std::size_t>(found - raw_.begin())];
 }
 
+std::string letter_of(std::size_t index) {
+  std::string name(1, static_cast<char>('A' + index % 26));
+  if (index >= 26) name += std::to_string(index / 26 + 1);
+  return name;
+}
+
 std::optional<std::size_t> point_named(const Sketch& sketch, std::string_view name) {
   for (std::size_t point = 0; point < sketch.points.size(); ++point)
     if (sketch.points[point].name == name) return point;

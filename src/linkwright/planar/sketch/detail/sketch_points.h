@@ -66,6 +66,9 @@ class Nodes {
   std::vector<std::size_t> group_, group_of_raw_;
 };
 
+/// The name of a point by its place in the order from left to right: "A" to "Z", then "A2".
+std::string letter_of(std::size_t index);
+
 /// The point of a name; none if there is none.
 std::optional<std::size_t> point_named(const Sketch& sketch, std::string_view name);
 
